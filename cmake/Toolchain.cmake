@@ -1,0 +1,33 @@
+# How every target is compiled and linked.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+foreach(linker mold lld)
+  find_program(LINKER_${linker} NAMES ld.${linker} ${linker})
+  if(LINKER_${linker})
+    add_link_options(-fuse-ld=${linker})
+    break()
+  endif()
+endforeach()
+
+# Results must not depend on how a compiler contracts a*b+c: to the bit, on every machine of a class.
+add_library(helicoid_compile_options INTERFACE)
+target_compile_options(helicoid_compile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  -ffp-contract=off $<$<BOOL:${HELICOID_WARNINGS_AS_ERRORS}>:-Werror>)
+
+set(HELICOID_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")
+if(HELICOID_SANITIZE)
+  add_compile_options(-fsanitize=${HELICOID_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${HELICOID_SANITIZE})
+endif()

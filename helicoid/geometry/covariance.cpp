@@ -1,0 +1,30 @@
+#include "helicoid/geometry/covariance.hpp"
+
+#include <algorithm>
+
+namespace helicoid {
+
+Matrix3d transport(const Matrix3d& jacobian, const Matrix3d& covariance) {
+  const Matrix3d moved = jacobian * covariance * jacobian.transpose();
+  return 0.5 * (moved + moved.transpose());
+}
+
+UncertainPose2 compound(const UncertainPose2& ab, const UncertainPose2& bc) {
+  const Composition c = compose_with_jacobians(ab.T_a_b, bc.T_a_b);
+  return {c.T_a_c, transport(c.by_first, ab.covariance) + transport(c.by_second, bc.covariance)};
+}
+
+UncertainPose2 invert(const UncertainPose2& ab) {
+  const Inversion inverse = invert_with_jacobian(ab.T_a_b);
+  return {inverse.T_b_a, transport(inverse.by_pose, ab.covariance)};
+}
+
+ConfidenceInterval confidence_interval(const Matrix3d& covariance) {
+  const double xx = covariance(0, 0);
+  const double yy = covariance(1, 1);
+  const double xy = covariance(0, 1);
+  const double largest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+  return {1.96 * std::sqrt(std::max(0.0, largest)), 1.96 * std::sqrt(std::max(0.0, covariance(2, 2)))};
+}
+
+}  // namespace helicoid

@@ -1,0 +1,27 @@
+// The one way to change a Map. Only `mapping` (and `store`, when it reads a map back) may include this file; a test
+// of the rooms enforces it.
+#pragma once
+
+#include "helicoid/manifold/map.hpp"
+
+namespace helicoid {
+
+class MapEditor {
+ public:
+  explicit MapEditor(Map& map) : map_(map) {}
+
+  RobotId add_robot(std::string name, std::vector<LaserModel> lasers);
+  IslandId add_island();
+  /// The patch's id must be the next free one.
+  PatchId add_patch(Patch patch, const Pose2& T_plane_patch, IslandId island);
+  RelationId add_relation(const Relation& relation);
+  void set_pose(PatchId id, const Pose2& T_plane_patch) { map_.poses_[id.index()] = T_plane_patch; }
+  void set_poses(std::vector<Pose2> poses) { map_.poses_ = std::move(poses); }
+  void append_scan(RobotId robot, const TrackedScan& scan);
+  void set_scan(RobotId robot, std::size_t index, const TrackedScan& scan);
+
+ private:
+  Map& map_;
+};
+
+}  // namespace helicoid

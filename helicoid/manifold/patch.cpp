@@ -1,0 +1,42 @@
+#include "helicoid/manifold/patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/sensor/free_space.hpp"
+
+namespace helicoid {
+
+Patch make_patch(PatchId id, RobotId robot, std::size_t scan_index, double stamp, Scan scan, const LaserModel& laser) {
+  Patch patch{id, robot, scan_index, stamp, std::move(scan), laser, {}, {}, {}, 0};
+  patch.free_space = free_space_polygon(patch.scan, laser, make_beam_table(laser));
+  patch.free_ranges = free_ranges(patch.scan, laser);
+  patch.points = ScanPointExtractor(laser).extract(patch.scan);
+  for (const auto& vertex : patch.free_space) patch.reach = std::max(patch.reach, static_cast<double>(vertex.norm()));
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    patch.reach = std::max(patch.reach, static_cast<double>(std::hypot(patch.points.x[i], patch.points.y[i])));
+  }
+  return patch;
+}
+
+bool contains(const Patch& patch, const Vector2d& p_patch) {
+  const Vector2d p_laser = patch.scan.T_robot_laser.inverse() * p_patch;
+  const double range = p_laser.norm();
+  if (range == 0) return !patch.free_space.empty();
+  const LaserModel& laser = patch.laser;
+  const double offset = wrap_angle(std::atan2(p_laser.y(), p_laser.x()) - laser.first_bearing -
+                                   0.5 * laser.field_of_view()) + 0.5 * laser.field_of_view();
+  const double at = offset / laser.bearing_step;
+  const double below = std::floor(at);
+  if (below < 0 || below + 1 > laser.beams - 1) return at == laser.beams - 1 && range <= patch.free_ranges.back();
+  const auto i = static_cast<std::size_t>(below);
+  const double r0 = patch.free_ranges[i];
+  const double r1 = patch.free_ranges[i + 1];
+  if (r0 <= 0 || r1 <= 0) return false;
+  // Inside the triangle of the laser and the two beams' ends: below the chord in polar form.
+  const double a = (at - below) * laser.bearing_step;
+  const double b = laser.bearing_step - a;
+  return range * (r0 * std::sin(a) + r1 * std::sin(b)) <= r0 * r1 * std::sin(laser.bearing_step);
+}
+
+}  // namespace helicoid

@@ -1,0 +1,74 @@
+// The incremental step (paper IV-A) for a team of robots: events in, a manifold map out. The only writer of a Map.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "helicoid/manifold/map.hpp"
+#include "helicoid/mapping/mapper_options.hpp"
+#include "helicoid/sensor/event.hpp"
+
+namespace helicoid {
+
+/// What became of one scan.
+enum class StepStatus : std::uint8_t {
+  matched,       ///< fitted against the local map
+  first,         ///< the first scan of a robot: it starts an island
+  predicted,     ///< not matched (too few inliers, degenerate): odometry alone says where it was taken
+  not_a_scan,    ///< odometry or a sighting
+};
+
+/// What one event did.
+struct Step {
+  StepStatus status = StepStatus::not_a_scan;
+  ManifoldPose pose;     ///< of the robot, after the step
+  PatchId new_patch;     ///< valid if the scan was kept as a patch
+  int iterations = 0;
+  double inlier_share = 0;  ///< of the points that had a normal
+};
+
+/// Counts of what was survived or left out, shown in every summary.
+struct MapperCounts {
+  std::size_t scans = 0;
+  std::size_t matched = 0;
+  std::size_t predicted = 0;
+  std::size_t empty_scans = 0;           ///< scans without a single return
+  std::size_t odometry_jumps = 0;        ///< impossible steps, replaced by a constant-velocity prediction
+  std::size_t scans_without_odometry = 0;
+  std::size_t sightings = 0;
+  std::size_t unidentified_sightings = 0;  ///< of "?" or of a name that no robot has
+  std::size_t self_sightings = 0;
+  std::size_t coarse_searches = 0;       ///< restarts at a fan of headings
+};
+
+/// CPU seconds of the thread, by what they were spent on.
+struct MapperTimes {
+  double match_s = 0;
+  double fit_s = 0;
+};
+
+class Mapper {
+ public:
+  explicit Mapper(const MapperOptions& options = {});
+  ~Mapper();
+  Mapper(Mapper&&) noexcept;
+  Mapper& operator=(Mapper&&) noexcept;
+
+  /// Each robot starts on an island of its own. Names are unique: the caller sees to it.
+  RobotId add_robot(const std::string& name, const std::vector<LaserModel>& lasers);
+  /// One incremental step. The scan's ranges are copied only if it is kept as a patch.
+  Step process(const Event& event);
+  /// The last global fit, after the last event. Idempotent.
+  void finish();
+
+  [[nodiscard]] const Map& map() const;
+  [[nodiscard]] const MapperCounts& counts() const;
+  [[nodiscard]] const MapperTimes& times() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace helicoid

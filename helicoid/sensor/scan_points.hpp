@@ -1,0 +1,42 @@
+// From ranges to points with normals, in the robot's frame. Arrays of floats: the compiler vectorises over them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "helicoid/sensor/event.hpp"
+#include "helicoid/sensor/laser_model.hpp"
+
+namespace helicoid {
+
+/// Points on surfaces, each with the unit normal that faces the laser. Structure of arrays, all of one length.
+struct ScanPoints {
+  std::vector<float> x, y;    ///< metres, in the robot's frame
+  std::vector<float> nx, ny;  ///< unit normal, towards the laser
+  std::vector<float> weight;  ///< 0..1: how much of an independent measurement the point is; 0 = no trustworthy normal
+  std::vector<std::uint16_t> beam;  ///< which beam it came from
+
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+  void clear();
+};
+
+/// True if this range is a measurement of a surface.
+[[nodiscard]] inline bool is_return(float range, const LaserModel& laser) {
+  // NaN fails both comparisons.
+  return range >= static_cast<float>(laser.min_range) && range < static_cast<float>(laser.max_range);
+}
+
+/// Turns scans of one laser into points; keeps its tables and buffers between scans, so that no scan allocates.
+class ScanPointExtractor {
+ public:
+  explicit ScanPointExtractor(const LaserModel& laser);
+  /// The points of a scan; valid until the next call.
+  const ScanPoints& extract(const Scan& scan);
+
+ private:
+  LaserModel laser_;
+  BeamTable table_;
+  ScanPoints points_;
+};
+
+}  // namespace helicoid
