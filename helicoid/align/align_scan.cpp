@@ -111,9 +111,11 @@ Alignment align_scan(const Reference& reference, const ScanPoints& scan, const P
     ++result.iterations;
     const double scale = std::max(options.robust_scale, 0.33 * gate);
     round = sum_residuals(reference, scan, T, static_cast<float>(gate), static_cast<float>(scale), stride);
-    const Matrix3d H = against_prior * round.information + prior.information;
-    const Vector3d g =
-        against_prior * round.gradient + prior.information * difference(T, prior.T_reference_scan);
+    const Vector3d off = difference(T, prior.T_reference_scan);
+    // Odometry has heavy tails: a prior that the beams contradict fades (Student's t).
+    const double believed = options.prior_freedom / (options.prior_freedom + off.dot(prior.information * off));
+    const Matrix3d H = against_prior * round.information + believed * prior.information;
+    const Vector3d g = against_prior * round.gradient + believed * prior.information * off;
     const Vector3d step = -(H + 1e-9 * H.trace() * Matrix3d::Identity()).ldlt().solve(g);
     T = Pose2::from_vector(T.vector() + step);
     const bool small = step.head<2>().norm() < 0.25 * gate && std::abs(step[2]) < 0.05 * gate;

@@ -13,6 +13,7 @@ struct AlignOptions {
   double robust_scale = 0.03;  ///< residuals beyond it lose their weight (Geman-McClure), metres
   double range_sigma = 0.012;  ///< of a residual, reference included: the unit of the information, metres
   double kappa = 8;            ///< beams that carry the information of one; divides the information against the prior
+  double prior_freedom = 4;    ///< degrees of freedom of the prior's Student t: small = heavy tails
   int max_iterations = 20;
   double min_inlier_share = 0.35;  ///< of the points with a normal; fewer = failure
   int min_points = 12;

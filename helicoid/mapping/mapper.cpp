@@ -101,6 +101,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
 
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
   bool keep_it = is_far_from_all(robot.local, T_anchor_robot, options);
+  if (alignment.usable() && alignment.inlier_share < options.new_surface_share) keep_it = true;
   if (!keep_it && alignment.usable() && has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) {
     robot.T_anchor_coverage_view = T_anchor_robot;
     keep_it = uncovered_share(map, robot.local, T_anchor_robot, scan, laser) > options.new_ground_share;
@@ -158,6 +159,13 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
   AlignOptions align;
   align.kappa = laser.kappa;
   Alignment alignment = align_scan(robot.reference, points, prior, align);
+  if (robot.motion.in_doubt() || alignment.inlier_share < options.good_inlier_share) {
+    const Motion steady = robot.motion.constant_velocity();
+    const Alignment other = align_scan(
+        robot.reference, points,
+        {robot.pose.T_patch_robot * steady.T_last_now, robot.motion.information(steady)}, align);
+    if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
+  }
   if (alignment.status == AlignStatus::too_few_inliers || alignment.inlier_share < options.good_inlier_share) {
     const Alignment fan = align_scan_in_fan(robot.reference, points, prior, align);
     ++counts.coarse_searches;

@@ -14,6 +14,8 @@ struct MapperOptions {
   double patch_turn = 0.70;
   /// The second: this share of the scan's free space is not covered by the local map.
   double new_ground_share = 0.20;
+  /// And its sign in the match: fewer of the scan's points than this lie on known surfaces.
+  double new_surface_share = 0.70;
   /// The local map reaches this far and holds this many patches at most.
   double local_radius = 12;
   std::size_t local_patches = 80;

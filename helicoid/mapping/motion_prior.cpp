@@ -60,6 +60,7 @@ void MotionPrior::learn(const Motion& predicted, const Pose2& T_last_now_matched
   const Pose2 innovation = predicted.T_last_now.inverse() * T_last_now_matched;
   const Vector3d s = sigma(predicted.T_last_now.distance(), std::abs(predicted.T_last_now.yaw));
   const double ratio = scale_ * innovation.vector().cwiseQuotient(s).squaredNorm() / 3;
+  in_doubt_ = ratio > 6;
   // One wild step must not open the gate for a minute.
   scale_ = std::clamp(scale_ + 0.02 * (std::min(ratio, 25.0) - scale_), 0.25, 25.0);
 }

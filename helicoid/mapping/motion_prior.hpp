@@ -28,6 +28,10 @@ class MotionPrior {
   Motion advance(const Scan& scan, double stamp);
   /// What the match made of it: the innovation scales the next priors.
   void learn(const Motion& predicted, const Pose2& T_last_now_matched);
+  /// True if the last match contradicted the odometry, or there was none: constant velocity is worth a try.
+  [[nodiscard]] bool in_doubt() const { return in_doubt_; }
+  /// The last matched motion, as a prediction of the next.
+  [[nodiscard]] Motion constant_velocity() const { return {velocity_, false, false}; }
   /// Information about the pose after this motion, in the frame in which the robot's pose before it is given.
   [[nodiscard]] Matrix3d information(const Motion& motion) const;
   /// The same for the raw motion between two kept patches that lie this far apart along the path.
@@ -41,6 +45,7 @@ class MotionPrior {
   Pose2 T_odom_last_;
   double last_stamp_ = 0;
   Pose2 velocity_;       ///< the last matched motion
+  bool in_doubt_ = false;
   double scale_ = 1;     ///< squared: innovations over what sigma() says
 };
 
