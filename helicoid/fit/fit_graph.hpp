@@ -20,8 +20,8 @@ enum class FitStatus : std::uint8_t { converged, iteration_limit, not_positive_d
 
 struct FitOptions {
   int max_iterations = 20;
-  double relative_tolerance = 1e-9;  ///< of the cost
-  double step_tolerance = 1e-7;      ///< largest step of any pose, metres or radians
+  double relative_tolerance = 1e-7;  ///< of the cost
+  double step_tolerance = 1e-6;      ///< largest step of any pose, metres or radians
 };
 
 /// The fitted poses and the proof.

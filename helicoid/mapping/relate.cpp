@@ -1,6 +1,7 @@
 #include "helicoid/mapping/relate.hpp"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 namespace helicoid {
 
@@ -43,7 +44,11 @@ RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Sca
                               options.match);
       if (matches[i].correspondences < options.min_correspondences) matches[i] = {};
     }
-    result.T_anchor_patch = fit_alone(views, matches, result.T_anchor_patch, prior, options.kappa);
+    const Pose2 matched_at = result.T_anchor_patch;
+    result.T_anchor_patch = fit_alone(views, matches, matched_at, prior, options.kappa);
+    // Correspondences found this near the fitted pose would be found again.
+    const Pose2 moved = matched_at.inverse() * result.T_anchor_patch;
+    if (moved.distance() < options.settled_position && std::abs(moved.yaw) < options.settled_heading) break;
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (matches[i].correspondences == 0) continue;

@@ -13,7 +13,9 @@ namespace helicoid {
 struct RelateOptions {
   MatchPairOptions match;
   double kappa = 8;
-  int rounds = 2;                ///< of matching and fitting, EM-style
+  int rounds = 3;                ///< of matching and fitting at most, EM-style
+  double settled_position = 0.004;  ///< a fit that moves less ends the rounds, metres
+  double settled_heading = 0.002;   ///< radians
   int min_correspondences = 20;
 };
 
