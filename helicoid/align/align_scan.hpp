@@ -8,7 +8,7 @@
 namespace helicoid {
 
 struct AlignOptions {
-  double first_gate = 0.5;     ///< pairs farther apart are not considered in the first round, metres
+  double first_gate = 0.25;     ///< pairs farther apart are not considered in the first round, metres
   double last_gate = 0.12;     ///< the same in the last rounds
   double robust_scale = 0.03;  ///< residuals beyond it lose their weight (Geman-McClure), metres
   double range_sigma = 0.012;  ///< of a residual, reference included: the unit of the information, metres

@@ -13,15 +13,14 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// Derivative of (t_x, t_y, phi) of T_a_b = theta_a^-1 theta_b by (theta_a, theta_b).
-Eigen::Matrix<double, 3, 6> relative_jacobian(const Pose2& theta_a, const Pose2& T_a_b) {
+/// Derivative of (t_x, t_y, phi) of T_a_b by the twists (xi_a, xi_b) of theta <- theta exp(xi). In the body's own frame
+/// and with the exponential, a turn of the whole graph is an exact step however long its levers are.
+Eigen::Matrix<double, 3, 6> relative_jacobian(const Pose2& T_a_b) {
   Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
-  const Matrix2d Rt = theta_a.rotation().transpose();
-  J.block<2, 2>(0, 0) = -Rt;
+  J.block<3, 3>(0, 0) = -Matrix3d::Identity();
   J(0, 2) = T_a_b.y;
   J(1, 2) = -T_a_b.x;
-  J(2, 2) = -1;
-  J.block<2, 2>(0, 3) = Rt;
+  J.block<2, 2>(0, 3) = T_a_b.rotation();
   J(2, 5) = 1;
   return J;
 }
@@ -48,7 +47,7 @@ class System {
     for (const GraphEdge& e : edges_) {
       const Pose2 T_a_b = poses[e.a].inverse() * poses[e.b];
       const PairExpansion pair = expand(*e.form, T_a_b);
-      const Eigen::Matrix<double, 3, 6> J = relative_jacobian(poses[e.a], T_a_b);
+      const Eigen::Matrix<double, 3, 6> J = relative_jacobian(T_a_b);
       const Matrix6d H = e.scale * J.transpose() * pair.information * J;
       const Vector6d g = e.scale * J.transpose() * pair.gradient;
       add_blocks(e, H, g);
@@ -73,7 +72,7 @@ class System {
   std::vector<Pose2> moved(std::span<const Pose2> poses, const Eigen::VectorXd& step) const {
     std::vector<Pose2> result(poses.begin(), poses.end());
     for (std::uint32_t i = 0; i < result.size(); ++i) {
-      if (i != fixed_) result[i] = Pose2::from_vector(result[i].vector() + step.segment<3>(offset(i)));
+      if (i != fixed_) result[i] = result[i] * exponential(step.segment<3>(offset(i)));
     }
     return result;
   }
