@@ -6,6 +6,7 @@
 
 #include "helicoid/align/align_scan.hpp"
 #include "helicoid/fit/fit_graph.hpp"
+#include "helicoid/manifold/confidence.hpp"
 #include "helicoid/manifold/map_editor.hpp"
 #include "helicoid/mapping/local_map.hpp"
 #include "helicoid/mapping/motion_prior.hpp"
@@ -56,7 +57,7 @@ struct Mapper::State {
   Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const LaserModel& laser);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched);
   void relate_to_last(RobotState& robot, PatchId id);
-  void add_relation(const Relation& relation, double kappa);
+  void add_relation(const Relation& relation);
   void reanchor(RobotState& robot);
   void fit_islands();
   const LaserModel& laser_of(RobotId robot, const Scan& scan) const { return map.robot(robot).lasers[scan.laser]; }
@@ -139,10 +140,10 @@ void Mapper::State::renew_reference(RobotState& robot, const Pose2& T_anchor_rob
     return;
   }
   if (robot.stale) {
-    const LaserModel& laser = map.patch(robot.pose.patch).laser;
-    robot.local = find_local_map(map, graph, robot.pose.patch,
-                                 {options.reference_position, options.reference_heading, options.local_radius,
-                                  options.local_patches, laser.floor_position, laser.floor_heading});
+    BoundOptions bound = bound_options(map.patch(robot.pose.patch), options.reference_position,
+                                       options.reference_heading, options.local_radius);
+    bound.most = options.local_patches;
+    robot.local = find_local_map(map, graph, robot.pose.patch, bound);
     robot.T_anchor_coverage_view = T_anchor_robot;
     robot.stale = false;
   }
@@ -189,7 +190,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   graph.add_pose();
   for (const NewRelation& r : related.relations) {
     const RelationKind kind = r.patch == robot.last_kept ? RelationKind::chain : RelationKind::overlap;
-    add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences}, laser.kappa);
+    add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
   }
   relate_to_last(robot, id);
   // Eq. 15.
@@ -204,14 +205,13 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
 void Mapper::State::relate_to_last(RobotState& robot, PatchId id) {
   const Matrix3d information = robot.motion.path_information(robot.path, robot.turn);
   add_relation({robot.last_kept, id, RelationKind::odometry, pose_pose_form(robot.T_kept_robot_raw, information),
-                robot.T_kept_robot_raw, 0, 0, 0},
-               1);
+                robot.T_kept_robot_raw, 0, 0, 0});
 }
 
-void Mapper::State::add_relation(const Relation& relation, double kappa) {
+void Mapper::State::add_relation(const Relation& relation) {
   editor.add_relation(relation);
   const Pose2 T_a_b = map.T_plane_patch(relation.a).inverse() * map.T_plane_patch(relation.b);
-  graph.add(relation.a.value, relation.b.value, T_a_b, expand(relation.form, T_a_b).information / kappa);
+  graph.add(relation.a.value, relation.b.value, T_a_b, expand(relation.form, T_a_b).information / information_divisor(map, relation));
 }
 
 void Mapper::State::reanchor(RobotState& robot) {
@@ -233,18 +233,9 @@ void Mapper::State::fit_islands() {
   if (patches_at_last_fit == map.patch_count()) return;
   patches_at_last_fit = map.patch_count();
   for (const Island& island : map.islands()) {
-    std::vector<std::uint32_t> place(map.patch_count(), 0);
     std::vector<Pose2> start;
-    for (const PatchId id : island.patches) {
-      place[id.index()] = static_cast<std::uint32_t>(start.size());
-      start.push_back(map.T_plane_patch(id));
-    }
-    std::vector<GraphEdge> edges;
-    for (const Relation& r : map.relations()) {
-      if (map.island_of(r.a) != island.id) continue;
-      const double kappa = r.kind == RelationKind::odometry ? 1 : map.patch(r.b).laser.kappa;
-      edges.push_back({place[r.a.index()], place[r.b.index()], &r.form, 1 / kappa});
-    }
+    for (const PatchId id : island.patches) start.push_back(map.T_plane_patch(id));
+    const std::vector<GraphEdge> edges = graph_edges(map, island);
     const FitResult fit = fit_graph(start, edges, 0);
     for (std::size_t i = 0; i < start.size(); ++i) editor.set_pose(island.patches[i], fit.poses[i]);
   }
