@@ -1,4 +1,4 @@
-// Which patches are neighbours, and how many sheets lie over one another (contract: *Sheets*).
+// Which patches are neighbours, and which merely lie over one another (paper III-A; design 5.7).
 #pragma once
 
 #include <vector>
@@ -7,9 +7,14 @@
 
 namespace helicoid {
 
-/// For each patch (by id) the patches of its island whose free space overlaps its own in the plane and whose pose
-/// relative to it is known to within eps; ascending.
-using Neighbours = std::vector<std::vector<PatchId>>;
+/// By patch id, ascending lists of patches of the same island.
+struct Neighbours {
+  /// Free space overlaps in the plane (the first half of eq. 2) and each is confident relative to the other (eq. 12).
+  std::vector<std::vector<PatchId>> of;
+  /// Free space overlaps in the plane, but nothing says how the two lie: as far as the map knows they are different
+  /// places, one sheet over the other.
+  std::vector<std::vector<PatchId>> strangers;
+};
 
 struct NeighbourOptions {
   double position = 0.10;  ///< eps of eq. 12, metres
@@ -17,11 +22,7 @@ struct NeighbourOptions {
 };
 [[nodiscard]] Neighbours find_neighbours(const Map& map, const NeighbourOptions& options = {});
 
-/// The sheets of one island.
-struct Sheets {
-  int count = 1;                ///< the largest number of groups of patches over one 10 cm cell; 1 = planar
-  std::vector<int> sheet_of;    ///< by patch id: 0..count-1 a sheet to draw it on; -1 for patches of other islands
-};
-[[nodiscard]] Sheets find_sheets(const Map& map, const Neighbours& neighbours, IslandId island);
+/// True if the free-space polygons of two patches overlap at this relative pose: by some tens of samples of either.
+[[nodiscard]] bool free_space_overlaps(const Patch& a, const Patch& b, const Pose2& T_a_b);
 
 }  // namespace helicoid
