@@ -37,6 +37,15 @@ Vector2d operator*(const Pose2& T_a_b, const Vector2d& p_b) {
   return {T_a_b.x + c * p_b.x() - s * p_b.y(), T_a_b.y + s * p_b.x() + c * p_b.y()};
 }
 
+Pose2 exponential(const Vector3d& twist) {
+  const double omega = twist[2];
+  const double square = omega * omega;
+  // sin(w)/w and (1-cos(w))/w; the series where the quotients lose their digits.
+  const double a = square < 1e-8 ? 1 - square / 6 : std::sin(omega) / omega;
+  const double b = square < 1e-8 ? 0.5 * omega : (1 - std::cos(omega)) / omega;
+  return {a * twist[0] - b * twist[1], b * twist[0] + a * twist[1], wrap_angle(omega)};
+}
+
 Composition compose_with_jacobians(const Pose2& T_a_b, const Pose2& T_b_c) {
   const double c = std::cos(T_a_b.yaw);
   const double s = std::sin(T_a_b.yaw);

@@ -44,6 +44,10 @@ struct Pose2 {
 /// The paper's q (-) theta (III-A): the pose relative to the patch at theta of what projects to q.
 [[nodiscard]] inline Pose2 ominus(const Pose2& q, const Pose2& theta) { return theta.inverse() * q; }
 
+/// The exponential of SE(2): where a body with the constant twist (v_x, v_y, omega), in its own frame, is after one
+/// unit of time.
+[[nodiscard]] Pose2 exponential(const Vector3d& twist);
+
 /// T_a_c = T_a_b * T_b_c with its derivatives by the parameters (x, y, yaw) of either factor; 3 x 3 each.
 struct Composition {
   Pose2 T_a_c;

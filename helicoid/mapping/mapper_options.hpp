@@ -1,6 +1,8 @@
 // What the incremental step decides by. Lengths in metres, angles in radians. One set for every log.
 #pragma once
 
+#include <cstddef>
+
 namespace helicoid {
 
 struct MapperOptions {
@@ -12,6 +14,19 @@ struct MapperOptions {
   double patch_turn = 0.70;
   /// The second: this share of the scan's free space is not covered by the local map.
   double new_ground_share = 0.20;
+  /// And its sign in the match: fewer of the scan's points than this lie on known surfaces.
+  double new_surface_share = 0.70;
+  /// The local map reaches this far and holds this many patches at most.
+  double local_radius = 12;
+  std::size_t local_patches = 80;
+  /// Patches fused into the reference, and patches that a new patch is related to.
+  std::size_t reference_views = 8;
+  std::size_t relation_views = 6;
+  /// The reference is chosen anew when the robot has moved this far.
+  double reference_renewal = 0.4;
+  double reference_renewal_turn = 0.4;
+  /// A match with fewer inliers is tried again from a fan of headings.
+  double good_inlier_share = 0.55;
 };
 
 }  // namespace helicoid

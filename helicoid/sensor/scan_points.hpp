@@ -26,6 +26,12 @@ struct ScanPoints {
   return range >= static_cast<float>(laser.min_range) && range < static_cast<float>(laser.max_range);
 }
 
+/// Sums of coordinates and their products over the points before an index: the moments of any run of points in O(1).
+/// In double, since moments are differences of large sums.
+struct PrefixMoments {
+  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+};
+
 /// Turns scans of one laser into points; keeps its tables and buffers between scans, so that no scan allocates.
 class ScanPointExtractor {
  public:
@@ -34,9 +40,12 @@ class ScanPointExtractor {
   const ScanPoints& extract(const Scan& scan);
 
  private:
+  void find_normals(const Scan& scan, float laser_x, float laser_y);
+
   LaserModel laser_;
   BeamTable table_;
   ScanPoints points_;
+  std::vector<PrefixMoments> prefix_;
 };
 
 }  // namespace helicoid

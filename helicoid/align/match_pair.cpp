@@ -1,0 +1,131 @@
+#include "helicoid/align/match_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace helicoid {
+
+namespace {
+
+constexpr float kSameSide = 0.7F;
+
+/// The point of `a` nearest to (x, y) with an agreeing normal: a scan is ordered by bearing, so only beams that look
+/// within the gate of the place need be read. -1 if there is none.
+int nearest_by_bearing(const ScanPoints& a, float x, float y, float nx, float ny, int first, int last, float gate) {
+  float best = gate * gate;
+  int found = -1;
+  for (int j = first; j < last; ++j) {
+    if (a.weight[j] <= 0 || a.nx[j] * nx + a.ny[j] * ny < kSameSide) continue;
+    const float dx = a.x[j] - x;
+    const float dy = a.y[j] - y;
+    const float square = dx * dx + dy * dy;
+    if (square < best) {
+      best = square;
+      found = j;
+    }
+  }
+  return found;
+}
+
+/// Which of a's points to read for a place in a's laser frame: the beams that look within `gate` of it.
+class BeamWindow {
+ public:
+  BeamWindow(const LaserModel& laser, const ScanPoints& points, double gate)
+      : first_bearing_(static_cast<float>(laser.first_bearing)),
+        half_view_(static_cast<float>(0.5 * laser.field_of_view())),
+        per_step_(static_cast<float>(1 / laser.bearing_step)),
+        gate_(static_cast<float>(gate)),
+        beams_(laser.beams) {
+    // first_[k]: the first point whose beam is k or later.
+    first_.assign(static_cast<std::size_t>(beams_) + 1, static_cast<std::uint16_t>(points.size()));
+    for (std::size_t i = points.size(); i-- > 0;) first_[points.beam[i]] = static_cast<std::uint16_t>(i);
+    for (auto k = static_cast<std::size_t>(beams_); k-- > 0;) first_[k] = std::min(first_[k], first_[k + 1]);
+  }
+
+  struct Range {
+    int first = 0;
+    int last = 0;  ///< one past
+  };
+  [[nodiscard]] Range at(float x, float y) const {
+    const float range = std::sqrt(x * x + y * y);
+    if (range <= 2 * gate_) return {first_.front(), first_.back()};
+    const float offset = approximate_atan2(y, x) - first_bearing_ - half_view_;
+    const float beam = (wrap(offset) + half_view_) * per_step_;
+    const float window = gate_ / range * per_step_ + 1.5F;
+    const int low = std::max(0, static_cast<int>(beam - window));
+    const int high = std::min(beams_, static_cast<int>(beam + window) + 1);
+    if (low >= high) return {};
+    return {first_[low], first_[high]};
+  }
+
+ private:
+  static float wrap(float angle) {
+    constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+    return angle - kTurn * std::floor(angle / kTurn + 0.5F);
+  }
+  /// To 2e-3 rad, which the window's margin covers: it only chooses which beams are read.
+  static float approximate_atan2(float y, float x) {
+    const float ax = std::abs(x);
+    const float ay = std::abs(y);
+    const float t = std::min(ax, ay) / std::max(ax, ay);
+    float angle = t * (0.97239F - 0.19195F * t * t);
+    if (ay > ax) angle = 0.5F * std::numbers::pi_v<float> - angle;
+    if (x < 0) angle = std::numbers::pi_v<float> - angle;
+    return y < 0 ? -angle : angle;
+  }
+
+  float first_bearing_, half_view_, per_step_, gate_;
+  int beams_;
+  std::vector<std::uint16_t> first_;
+};
+
+/// A rotation and translation in floats, for many points.
+struct PointTransform {
+  explicit PointTransform(const Pose2& T)
+      : c(static_cast<float>(std::cos(T.yaw))),
+        s(static_cast<float>(std::sin(T.yaw))),
+        x(static_cast<float>(T.x)),
+        y(static_cast<float>(T.y)) {}
+  float c, s, x, y;
+};
+
+}  // namespace
+
+PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T_a_b, const MatchPairOptions& options) {
+  PairMatch match;
+  const ScanPoints& lines = *a.points;
+  const BeamWindow window(*a.laser, lines, options.gate);
+  const PointTransform to_a(T_a_b);
+  const PointTransform to_laser(a.T_patch_laser.inverse() * T_a_b);
+  const auto gate = static_cast<float>(options.gate);
+  const double information = 1 / (options.range_sigma * options.range_sigma);
+  const double per_square_scale = 1 / (options.robust_scale * options.robust_scale);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (b.weight[i] <= 0) continue;
+    const float px = b.x[i];
+    const float py = b.y[i];
+    const auto range = window.at(to_laser.x + to_laser.c * px - to_laser.s * py,
+                                 to_laser.y + to_laser.s * px + to_laser.c * py);
+    if (range.first == range.last) continue;
+    ++match.candidates;
+    const float x = to_a.x + to_a.c * px - to_a.s * py;
+    const float y = to_a.y + to_a.s * px + to_a.c * py;
+    const float nx = to_a.c * b.nx[i] - to_a.s * b.ny[i];
+    const float ny = to_a.s * b.nx[i] + to_a.c * b.ny[i];
+    const int j = nearest_by_bearing(lines, x, y, nx, ny, range.first, range.last, gate);
+    if (j < 0) continue;
+    const Vector2d q_a(lines.x[j], lines.y[j]);
+    const Vector2d normal(lines.nx[j], lines.ny[j]);
+    const double residual = normal.dot(Vector2d(x, y) - q_a);
+    const double robust = 1 / (1 + residual * residual * per_square_scale);
+    const double weight = static_cast<double>(b.weight[i]) * lines.weight[j] * robust * robust;
+    match.form.add(point_line_row(Vector2d(px, py), q_a, normal), weight * information);
+    match.squares += weight * residual * residual;
+    if (robust > 0.2) ++match.correspondences;
+  }
+  return match;
+}
+
+}  // namespace helicoid

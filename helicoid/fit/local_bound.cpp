@@ -1,0 +1,147 @@
+#include "helicoid/fit/local_bound.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <queue>
+
+namespace helicoid {
+
+namespace {
+
+/// One radian of heading counts as much as this many metres when paths are compared: about a patch's reach.
+constexpr double kLever = 3;
+/// Keeps the inverse of a pair's information finite where the pair leaves a direction open: 30 m, 30 rad.
+constexpr double kLeastInformation = 1e-3;
+
+struct Visit {
+  double length;
+  std::uint32_t pose;
+  std::uint32_t from;
+  const InformationGraph::Edge* edge;
+  bool operator>(const Visit& other) const {
+    return length != other.length ? length > other.length : pose > other.pose;
+  }
+};
+
+Matrix3d noise_floor(const BoundOptions& options) {
+  Vector3d variance;
+  variance << options.floor_position * options.floor_position, options.floor_position * options.floor_position,
+      options.floor_heading * options.floor_heading;
+  return variance.asDiagonal();
+}
+
+/// Both ends' noise floors: the far end's seen from the reference, the reference's own by its lever.
+Matrix3d with_floor(const UncertainPose2& relative, const Matrix3d& floor) {
+  const Composition c = compose_with_jacobians(Pose2{}, relative.T_a_b);
+  return relative.covariance + transport(c.by_first, floor) + floor;
+}
+
+}  // namespace
+
+std::uint32_t InformationGraph::add_pose() {
+  edges_.emplace_back();
+  return static_cast<std::uint32_t>(edges_.size() - 1);
+}
+
+void InformationGraph::add(std::uint32_t a, std::uint32_t b, const Pose2& T_a_b, const Matrix3d& information) {
+  accumulate(a, b, information);
+  // T_b_a's parameters are a function of T_a_b's: information moves by the inverse Jacobian.
+  const Matrix3d back = invert_with_jacobian(T_a_b.inverse()).by_pose;
+  accumulate(b, a, transport(back.transpose(), information));
+}
+
+void InformationGraph::accumulate(std::uint32_t from, std::uint32_t to, const Matrix3d& information) {
+  auto& edges = edges_[from];
+  auto at = std::find_if(edges.begin(), edges.end(), [to](const Edge& e) { return e.to == to; });
+  if (at == edges.end()) at = edges.insert(edges.end(), Edge{to, Matrix3d::Zero(), 0, Matrix3d::Zero()});
+  at->information += information;
+  at->covariance = (at->information + kLeastInformation * Matrix3d::Identity()).inverse();
+  at->spread = at->covariance(0, 0) + at->covariance(1, 1) + kLever * kLever * at->covariance(2, 2);
+}
+
+std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
+                                    std::uint32_t reference, const BoundOptions& options) {
+  std::vector<BoundedPose> found;
+  std::vector<std::int32_t> place(graph.size(), -1);
+  std::priority_queue<Visit, std::vector<Visit>, std::greater<>> queue;
+  queue.push({0, reference, reference, nullptr});
+  const Matrix3d floor = noise_floor(options);
+  const Pose2 T_reference_plane = T_plane[reference].inverse();
+  while (!queue.empty() && found.size() < options.most) {
+    const Visit visit = queue.top();
+    queue.pop();
+    if (place[visit.pose] != -1) continue;
+    BoundedPose bounded{visit.pose, {}};
+    if (visit.edge != nullptr) {
+      const Pose2 T_from_pose = T_plane[visit.from].inverse() * T_plane[visit.pose];
+      bounded.relative = compound(found[place[visit.from]].relative, {T_from_pose, visit.edge->covariance});
+      bounded.relative.T_a_b = T_reference_plane * T_plane[visit.pose];
+      const ConfidenceInterval interval = confidence_interval(with_floor(bounded.relative, floor));
+      if (interval.position >= options.position || interval.heading >= options.heading) {
+        place[visit.pose] = -2;
+        continue;
+      }
+    }
+    place[visit.pose] = static_cast<std::int32_t>(found.size());
+    found.push_back(bounded);
+    for (const InformationGraph::Edge& edge : graph.edges(visit.pose)) {
+      if (place[edge.to] != -1) continue;
+      const Vector2d offset = T_plane[edge.to].translation() - T_plane[reference].translation();
+      if (offset.squaredNorm() > options.radius * options.radius) continue;
+      queue.push({visit.length + edge.spread, edge.to, visit.pose, &edge});
+    }
+  }
+  for (BoundedPose& bounded : found) {
+    if (bounded.pose != reference) bounded.relative.covariance = with_floor(bounded.relative, floor);
+  }
+  return found;
+}
+
+std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph, std::span<const Pose2> T_plane,
+                                                std::span<const std::uint32_t> poses) {
+  std::vector<std::int32_t> place(graph.size(), -1);
+  for (std::size_t i = 0; i < poses.size(); ++i) place[poses[i]] = static_cast<std::int32_t>(i);
+  const auto unknowns = static_cast<Eigen::Index>(3 * (poses.size() - 1));
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  // Everything in the frame of poses[0], so that the result does not turn with the plane.
+  const Pose2 T_reference_plane = T_plane[poses[0]].inverse();
+  for (const std::uint32_t a : poses) {
+    const Pose2 T_ref_a = T_reference_plane * T_plane[a];
+    for (const InformationGraph::Edge& edge : graph.edges(a)) {
+      const std::int32_t j = place[edge.to];
+      const std::int32_t i = place[a];
+      if (j < 0 || edge.to < a) continue;
+      const Pose2 T_ref_b = T_reference_plane * T_plane[edge.to];
+      const Pose2 T_a_b = T_ref_a.inverse() * T_ref_b;
+      Matrix3d by_b = Matrix3d::Identity();
+      by_b.topLeftCorner<2, 2>() = T_ref_a.rotation().transpose();
+      Matrix3d by_a = -by_b;
+      by_a(0, 2) = T_a_b.y;
+      by_a(1, 2) = -T_a_b.x;
+      const Eigen::Index row = 3 * (i - 1);
+      const Eigen::Index column = 3 * (j - 1);
+      if (i > 0) H.block<3, 3>(row, row) += by_a.transpose() * edge.information * by_a;
+      if (j > 0) H.block<3, 3>(column, column) += by_b.transpose() * edge.information * by_b;
+      if (i > 0 && j > 0) {
+        const Matrix3d cross = by_a.transpose() * edge.information * by_b;
+        H.block<3, 3>(row, column) += cross;
+        H.block<3, 3>(column, row) += cross.transpose();
+      }
+    }
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(H);
+  std::vector<UncertainPose2> result(poses.size());
+  if (unknowns == 0) return result;
+  const bool solved = factor.info() == Eigen::Success;
+  const Eigen::MatrixXd covariance =
+      solved ? Eigen::MatrixXd(factor.solve(Eigen::MatrixXd::Identity(unknowns, unknowns))) : Eigen::MatrixXd();
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(3 * (i - 1));
+    result[i].T_a_b = T_reference_plane * T_plane[poses[i]];
+    result[i].covariance = solved ? Matrix3d(covariance.block<3, 3>(at, at)) : Matrix3d::Constant(HUGE_VAL);
+  }
+  return result;
+}
+
+}  // namespace helicoid

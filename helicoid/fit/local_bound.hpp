@@ -1,0 +1,61 @@
+// How well is b known relative to a? The local bound of design 5.3: the information of relations is a sum of positive
+// semi-definite terms, so leaving relations out can only enlarge a covariance. What is accepted on the bound is safe.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "helicoid/geometry/covariance.hpp"
+
+namespace helicoid {
+
+/// For each pair of related poses the expected information of T_a_b (eq. 9), all its relations together.
+class InformationGraph {
+ public:
+  struct Edge {
+    std::uint32_t to = 0;
+    Matrix3d information = Matrix3d::Zero();  ///< of T_from_to
+    double spread = 0;                        ///< a scalar size of its inverse: the length by which paths are chosen
+    Matrix3d covariance = Matrix3d::Zero();
+  };
+
+  std::uint32_t add_pose();
+  [[nodiscard]] std::size_t size() const { return edges_.size(); }
+  /// Adds information about T_a_b, a != b; `T_a_b` is where it was linearised.
+  void add(std::uint32_t a, std::uint32_t b, const Pose2& T_a_b, const Matrix3d& information);
+  [[nodiscard]] std::span<const Edge> edges(std::uint32_t pose) const { return edges_[pose]; }
+
+ private:
+  void accumulate(std::uint32_t from, std::uint32_t to, const Matrix3d& information);
+  std::vector<std::vector<Edge>> edges_;
+};
+
+struct BoundOptions {
+  double position = 0.10;  ///< poses are followed while their interval is below both limits; metres
+  double heading = 0.035;  ///< radians
+  double radius = 15;      ///< and while they lie this near in the plane; metres
+  std::size_t most = 400;  ///< poses at most
+  /// The noise floor of a scan, once for either end (design 5.3).
+  double floor_position = 0.003;
+  double floor_heading = 0.0017;
+};
+
+/// A pose within the limits and an upper bound of its covariance relative to the reference, in the reference's frame.
+struct BoundedPose {
+  std::uint32_t pose = 0;
+  UncertainPose2 relative;
+};
+
+/// The poses that are surely confident relative to `reference` (eq. 12), the reference first, then in order of growing
+/// spread. The bound is the covariance along the tree of shortest paths: the sub-graph with all other relations left
+/// out. A pose that no path reaches within the limits is "unknown" and absent.
+[[nodiscard]] std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
+                                                  std::uint32_t reference, const BoundOptions& options = {});
+
+/// The covariance of all `poses` relative to poses[0] from the relations among them alone: exact for that sub-graph, a
+/// bound for the whole. Dense: meant for some tens of poses. Empty matrices where the sub-graph leaves a pose open.
+[[nodiscard]] std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph,
+                                                              std::span<const Pose2> T_plane,
+                                                              std::span<const std::uint32_t> poses);
+
+}  // namespace helicoid

@@ -1,0 +1,42 @@
+#include "helicoid/manifold/confidence.hpp"
+
+namespace helicoid {
+
+double information_divisor(const Map& map, const Relation& relation) {
+  return relation.kind == RelationKind::odometry ? 1 : map.patch(relation.b).laser.kappa;
+}
+
+InformationGraph information_graph(const Map& map) {
+  InformationGraph graph;
+  for (std::size_t i = 0; i < map.patch_count(); ++i) graph.add_pose();
+  for (const Relation& r : map.relations()) {
+    const Pose2 T_a_b = map.T_plane_patch(r.a).inverse() * map.T_plane_patch(r.b);
+    graph.add(r.a.value, r.b.value, T_a_b, expand(r.form, T_a_b).information / information_divisor(map, r));
+  }
+  return graph;
+}
+
+std::vector<GraphEdge> graph_edges(const Map& map, const Island& island) {
+  std::vector<std::uint32_t> place(map.patch_count(), 0);
+  for (std::size_t i = 0; i < island.patches.size(); ++i) {
+    place[island.patches[i].index()] = static_cast<std::uint32_t>(i);
+  }
+  std::vector<GraphEdge> edges;
+  for (const Relation& r : map.relations()) {
+    if (map.island_of(r.a) != island.id) continue;
+    edges.push_back({place[r.a.index()], place[r.b.index()], &r.form, 1 / information_divisor(map, r)});
+  }
+  return edges;
+}
+
+BoundOptions bound_options(const Patch& reference, double position, double heading, double radius) {
+  BoundOptions options;
+  options.position = position;
+  options.heading = heading;
+  options.radius = radius;
+  options.floor_position = reference.laser.floor_position;
+  options.floor_heading = reference.laser.floor_heading;
+  return options;
+}
+
+}  // namespace helicoid

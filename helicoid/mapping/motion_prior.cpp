@@ -1,0 +1,68 @@
+#include "helicoid/mapping/motion_prior.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace helicoid {
+
+namespace {
+
+// Where to begin before a robot's own innovations are known.
+constexpr double kPositionNoise = 0.01;        // metres, standing
+constexpr double kPositionPerMetre = 0.10;
+constexpr double kPositionPerRadian = 0.02;    // metres per radian
+constexpr double kHeadingNoise = 0.01;         // radians, standing
+constexpr double kHeadingPerRadian = 0.15;
+constexpr double kHeadingPerMetre = 0.06;      // radians per metre
+constexpr double kUnmeasuredFactor = 5;        // constant velocity is worth this much less
+
+}  // namespace
+
+Motion MotionPrior::advance(const Scan& scan, double stamp) {
+  Motion motion;
+  const double elapsed = std::clamp(stamp - last_stamp_, 0.0, 10.0) + limits_.slack;
+  if (!scan.has_odometry) {
+    motion = {velocity_, false, false};
+  } else if (has_last_) {
+    motion.T_last_now = T_odom_last_.inverse() * scan.T_odom_robot;
+    if (motion.T_last_now.distance() > limits_.speed * elapsed ||
+        std::abs(motion.T_last_now.yaw) > limits_.turn_rate * elapsed) {
+      motion = {velocity_, false, true};
+    }
+  }
+  has_last_ = scan.has_odometry;
+  T_odom_last_ = scan.T_odom_robot;
+  last_stamp_ = stamp;
+  return motion;
+}
+
+Vector3d MotionPrior::sigma(double path, double turn) const {
+  const double position = kPositionNoise + kPositionPerMetre * path + kPositionPerRadian * turn;
+  const double heading = kHeadingNoise + kHeadingPerRadian * turn + kHeadingPerMetre * path;
+  return std::sqrt(scale_) * Vector3d(position, position, heading);
+}
+
+Matrix3d MotionPrior::information(const Motion& motion) const {
+  const Vector3d s = sigma(motion.T_last_now.distance(), std::abs(motion.T_last_now.yaw)) *
+                     (motion.measured ? 1 : kUnmeasuredFactor);
+  return s.cwiseAbs2().cwiseInverse().asDiagonal();
+}
+
+Matrix3d MotionPrior::path_information(double path, double turn) const {
+  // Never more than a match is worth: it matters along degenerate directions only.
+  const Vector3d s = sigma(path, turn).cwiseMax(Vector3d(0.05, 0.05, 0.05));
+  return s.cwiseAbs2().cwiseInverse().asDiagonal();
+}
+
+void MotionPrior::learn(const Motion& predicted, const Pose2& T_last_now_matched) {
+  velocity_ = T_last_now_matched;
+  if (!predicted.measured) return;
+  const Pose2 innovation = predicted.T_last_now.inverse() * T_last_now_matched;
+  const Vector3d s = sigma(predicted.T_last_now.distance(), std::abs(predicted.T_last_now.yaw));
+  const double ratio = scale_ * innovation.vector().cwiseQuotient(s).squaredNorm() / 3;
+  in_doubt_ = ratio > 6;
+  // One wild step must not open the gate for a minute.
+  scale_ = std::clamp(scale_ + 0.02 * (std::min(ratio, 25.0) - scale_), 0.25, 25.0);
+}
+
+}  // namespace helicoid

@@ -1,0 +1,52 @@
+// Where the robot should be by its odometry, and how much that is worth. Odometry has heavy tails and no data sheet:
+// its scale is learned per robot from how far the matches moved the predictions (design 5.4).
+#pragma once
+
+#include "helicoid/align/align_scan.hpp"
+#include "helicoid/sensor/event.hpp"
+
+namespace helicoid {
+
+struct MotionLimits {
+  double speed = 4;       ///< no robot is faster, metres / second
+  double turn_rate = 5;   ///< radians / second
+  double slack = 0.3;     ///< added to the time between scans: stamps are jittery, seconds
+};
+
+/// The increment between two scans of one robot.
+struct Motion {
+  Pose2 T_last_now;
+  bool measured = true;    ///< false: no odometry, or an impossible step; constant velocity instead
+  bool impossible = false;
+};
+
+class MotionPrior {
+ public:
+  explicit MotionPrior(const MotionLimits& limits = {}) : limits_(limits) {}
+
+  /// The motion since the last scan; call once a scan, in order.
+  Motion advance(const Scan& scan, double stamp);
+  /// What the match made of it: the innovation scales the next priors.
+  void learn(const Motion& predicted, const Pose2& T_last_now_matched);
+  /// True if the last match contradicted the odometry, or there was none: constant velocity is worth a try.
+  [[nodiscard]] bool in_doubt() const { return in_doubt_; }
+  /// The last matched motion, as a prediction of the next.
+  [[nodiscard]] Motion constant_velocity() const { return {velocity_, false, false}; }
+  /// Information about the pose after this motion, in the frame in which the robot's pose before it is given.
+  [[nodiscard]] Matrix3d information(const Motion& motion) const;
+  /// The same for the raw motion between two kept patches that lie this far apart along the path.
+  [[nodiscard]] Matrix3d path_information(double path, double turn) const;
+
+ private:
+  [[nodiscard]] Vector3d sigma(double path, double turn) const;
+
+  MotionLimits limits_;
+  bool has_last_ = false;
+  Pose2 T_odom_last_;
+  double last_stamp_ = 0;
+  Pose2 velocity_;       ///< the last matched motion
+  bool in_doubt_ = false;
+  double scale_ = 1;     ///< squared: innovations over what sigma() says
+};
+
+}  // namespace helicoid

@@ -1,0 +1,16 @@
+// When a scan is kept as a patch (paper IV-A, after eq. 14): it is far from every patch, or it sees new ground.
+#pragma once
+
+#include "helicoid/mapping/local_map.hpp"
+#include "helicoid/mapping/mapper_options.hpp"
+
+namespace helicoid {
+
+/// The first trigger: no patch of the local map is near and looks the same way.
+[[nodiscard]] bool is_far_from_all(const LocalMap& local, const Pose2& T_anchor_robot, const MapperOptions& options);
+
+/// The second: the share of the scan's free space that no patch of the local map covers, 0..1, by sampling.
+[[nodiscard]] double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot,
+                                     const Scan& scan, const LaserModel& laser);
+
+}  // namespace helicoid

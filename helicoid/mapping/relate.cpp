@@ -1,0 +1,62 @@
+#include "helicoid/mapping/relate.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace helicoid {
+
+namespace {
+
+/// Eq. 13: the pose of the new patch that fits all its relations to patches that stay where they are.
+Pose2 fit_alone(std::span<const LocalPatch> views, std::span<const PairMatch> matches, const Pose2& start,
+                const PosePrior& prior, double kappa) {
+  Pose2 T = start;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    Matrix3d H = prior.information;
+    Vector3d g = prior.information * Vector3d(T.x - prior.T_reference_scan.x, T.y - prior.T_reference_scan.y,
+                                              wrap_angle(T.yaw - prior.T_reference_scan.yaw));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const Pose2 T_a_b = views[i].T_anchor_patch.inverse() * T;
+      const PairExpansion e = expand(matches[i].form, T_a_b);
+      Matrix3d J = Matrix3d::Identity();
+      J.topLeftCorner<2, 2>() = views[i].T_anchor_patch.rotation().transpose();
+      H += J.transpose() * e.information * J / kappa;
+      g += J.transpose() * e.gradient / kappa;
+    }
+    const Vector3d step = -(H + 1e-9 * H.trace() * Matrix3d::Identity()).ldlt().solve(g);
+    T = Pose2::from_vector(T.vector() + step);
+    if (step.norm() < 1e-6) break;
+  }
+  return T;
+}
+
+}  // namespace
+
+RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
+                    const PosePrior& prior, const RelateOptions& options) {
+  RelatedPatch result{prior.T_reference_scan, {}};
+  std::vector<PairMatch> matches(views.size());
+  for (int round = 0; round < options.rounds; ++round) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const Patch& patch = map.patch(views[i].patch);
+      const PairReference reference{&patch.points, &patch.laser, patch.scan.T_robot_laser};
+      matches[i] = match_pair(reference, points, views[i].T_anchor_patch.inverse() * result.T_anchor_patch,
+                              options.match);
+      if (matches[i].correspondences < options.min_correspondences) matches[i] = {};
+    }
+    const Pose2 matched_at = result.T_anchor_patch;
+    result.T_anchor_patch = fit_alone(views, matches, matched_at, prior, options.kappa);
+    // Correspondences found this near the fitted pose would be found again.
+    const Pose2 moved = matched_at.inverse() * result.T_anchor_patch;
+    if (moved.distance() < options.settled_position && std::abs(moved.yaw) < options.settled_heading) break;
+  }
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (matches[i].correspondences == 0) continue;
+    const Pose2 T_a_b = views[i].T_anchor_patch.inverse() * result.T_anchor_patch;
+    result.relations.push_back({views[i].patch, matches[i].form, T_a_b,
+                                2 * minimise(matches[i].form, T_a_b).cost, matches[i].correspondences});
+  }
+  return result;
+}
+
+}  // namespace helicoid
