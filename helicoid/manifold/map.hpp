@@ -57,6 +57,8 @@ class Map {
 
   /// The islands, by id, empty ones left out.
   [[nodiscard]] std::vector<Island> islands() const;
+  /// Island ids given out so far, those of emptied islands included.
+  [[nodiscard]] std::size_t island_count() const { return island_count_; }
 
   /// The paper's r (+) theta: where a manifold pose projects to in the island's plane.
   [[nodiscard]] Pose2 project(const ManifoldPose& pose) const {

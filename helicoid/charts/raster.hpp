@@ -1,0 +1,23 @@
+// The occupancy grid as pixels: smooth walls on smooth floors.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "helicoid/charts/sheet_charts.hpp"
+
+namespace helicoid::charts {
+
+/// Pixels 0x00RRGGBB, row 0 at the top.
+struct Raster {
+  int width = 0;
+  int height = 0;
+  int scale = 1;  ///< pixels a cell
+  std::vector<std::uint32_t> pixels;
+};
+
+/// Each cell becomes scale x scale pixels; between cell centres "free" and "wall" are interpolated and their edges
+/// drawn soft over about one pixel. Cells that more than one sheet knows are hatched.
+[[nodiscard]] Raster paint(const SheetStack& sheets, int scale);
+
+}  // namespace helicoid::charts

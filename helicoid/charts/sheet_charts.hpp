@@ -1,0 +1,25 @@
+// Grids of the sheets of an island, and the one picture that shows them together.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "helicoid/charts/occupancy_grid.hpp"
+#include "helicoid/manifold/neighbours.hpp"
+
+namespace helicoid {
+
+/// One grid a sheet, all in the same frame. Patches that are on no sheet (of other islands) are left out.
+[[nodiscard]] std::vector<OccupancyGrid> draw_sheets(const Map& map, std::span<const PatchId> patches,
+                                                     const Sheets& sheets, const GridFrame& frame, int threads = 1,
+                                                     const OccupancyModel& model = {});
+
+/// Sheets laid over one another: where several know a cell the first of them is seen, never a blend.
+struct SheetStack {
+  OccupancyGrid grid;
+  std::vector<std::uint8_t> depth;  ///< by cell: how many sheets know it (up to 255)
+  int deepest = 0;                  ///< the largest depth
+};
+[[nodiscard]] SheetStack stack(std::span<const OccupancyGrid> sheets);
+
+}  // namespace helicoid
