@@ -1,79 +1,64 @@
 #include "helicoid/manifold/neighbours.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "helicoid/manifold/confidence.hpp"
+#include "helicoid/manifold/coverage_sweep.hpp"
+#include "helicoid/manifold/patch_set.hpp"
 
 namespace helicoid {
 
 namespace {
 
-constexpr int kSampleBeams = 16;
-constexpr double kShares[] = {0.9, 0.6, 0.3};
+constexpr double kCell = 0.10;
+/// Overlaps are looked for on every third row: one that is 30 cm wide is found.
+constexpr int kRowStep = 3;
 
-/// Samples of b's free space that lie in a's.
-bool has_sample_inside(const Patch& a, const Patch& b, const Pose2& T_a_b) {
-  const Pose2 T_a_laser = T_a_b * b.scan.T_robot_laser;
-  const int stride = std::max(1, b.laser.beams / kSampleBeams);
-  for (const double share : kShares) {
-    for (int beam = stride / 2; beam < b.laser.beams; beam += stride) {
-      const double range = share * static_cast<double>(b.free_ranges[beam]);
-      if (range <= 0) continue;
-      const double bearing = b.laser.bearing(beam);
-      if (contains(a, T_a_laser * Vector2d(range * std::cos(bearing), range * std::sin(bearing)))) return true;
-    }
-  }
-  return false;
+/// For each patch of an island (by its place) the patches that cover a cell with it.
+std::vector<PatchSet> find_overlaps(const Map& map, const Island& island) {
+  std::vector<PatchSet> overlaps(island.patches.size(), PatchSet(island.patches.size()));
+  PatchSet covering(island.patches.size());
+  sweep_coverage(covered_cells(map, island.patches, kCell), kRowStep, [&](const CoveredRun& run) {
+    if (run.patches.size() < 2) return;
+    covering.clear();
+    for (const std::uint32_t place : run.patches) covering.insert(place);
+    for (const std::uint32_t place : run.patches) overlaps[place] |= covering;
+  });
+  return overlaps;
 }
 
-bool contains_id(const std::vector<PatchId>& sorted, PatchId id) {
-  return std::binary_search(sorted.begin(), sorted.end(), id);
+/// For each patch of an island (by its place) those known to within eps relative to it (eq. 12).
+std::vector<PatchSet> find_confident(const Map& map, const Island& island, const InformationGraph& graph,
+                                     const NeighbourOptions& options) {
+  std::vector<std::size_t> place(map.patch_count(), 0);
+  double reach = 0;
+  for (std::size_t i = 0; i < island.patches.size(); ++i) {
+    place[island.patches[i].index()] = i;
+    reach = std::max(reach, map.patch(island.patches[i]).free_reach);
+  }
+  std::vector<PatchSet> confident(island.patches.size(), PatchSet(island.patches.size()));
+  for (std::size_t i = 0; i < island.patches.size(); ++i) {
+    const PatchId id = island.patches[i];
+    const BoundOptions bound = bound_options(map.patch(id), options.position, options.heading, 2 * reach);
+    for (const BoundedPose& pose : tree_bound(graph, map.poses(), id.value, bound)) confident[i].insert(place[pose.pose]);
+  }
+  return confident;
 }
 
 }  // namespace
 
-bool free_space_overlaps(const Patch& a, const Patch& b, const Pose2& T_a_b) {
-  const double distance = T_a_b.distance();
-  if (distance > a.reach + b.reach) return false;
-  return has_sample_inside(a, b, T_a_b) || has_sample_inside(b, a, T_a_b.inverse());
-}
-
 Neighbours find_neighbours(const Map& map, const NeighbourOptions& options) {
-  const std::size_t count = map.patch_count();
+  Neighbours neighbours(map.patch_count());
   const InformationGraph graph = information_graph(map);
-  double reach = 0;
-  for (std::size_t i = 0; i < count; ++i) reach = std::max(reach, map.patch(make_id<PatchId>(i)).reach);
-  std::vector<std::vector<PatchId>> confident(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const BoundOptions bound =
-        bound_options(map.patch(make_id<PatchId>(i)), options.position, options.heading, 2 * reach);
-    for (const BoundedPose& pose : tree_bound(graph, map.poses(), static_cast<std::uint32_t>(i), bound)) {
-      confident[i].push_back(PatchId{pose.pose});
+  for (const Island& island : map.islands()) {
+    const std::vector<PatchSet> confident = find_confident(map, island, graph, options);
+    std::vector<PatchSet> overlaps = find_overlaps(map, island);
+    for (std::size_t i = 0; i < island.patches.size(); ++i) {
+      overlaps[i] &= confident[i];
+      overlaps[i].for_each([&](std::size_t j) {
+        if (j != i && confident[j].contains(i)) neighbours[island.patches[i].index()].push_back(island.patches[j]);
+      });
     }
-    std::sort(confident[i].begin(), confident[i].end());
-  }
-  Neighbours neighbours{std::vector<std::vector<PatchId>>(count), std::vector<std::vector<PatchId>>(count)};
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto a = make_id<PatchId>(i);
-    for (std::size_t j = i + 1; j < count; ++j) {
-      const auto b = make_id<PatchId>(j);
-      if (map.island_of(a) != map.island_of(b)) continue;
-      const Patch& patch_a = map.patch(a);
-      const Patch& patch_b = map.patch(b);
-      const Vector2d apart = map.T_plane_patch(b).translation() - map.T_plane_patch(a).translation();
-      const double reach_sum = patch_a.reach + patch_b.reach;
-      if (apart.squaredNorm() > reach_sum * reach_sum) continue;
-      if (!free_space_overlaps(patch_a, patch_b, map.T_plane_patch(a).inverse() * map.T_plane_patch(b))) continue;
-      const bool near = contains_id(confident[i], b) && contains_id(confident[j], a);
-      auto& lists = near ? neighbours.of : neighbours.strangers;
-      lists[i].push_back(b);
-      lists[j].push_back(a);
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    std::sort(neighbours.of[i].begin(), neighbours.of[i].end());
-    std::sort(neighbours.strangers[i].begin(), neighbours.strangers[i].end());
   }
   return neighbours;
 }
