@@ -24,20 +24,19 @@ struct Visit {
   }
 };
 
-Matrix3d noise_floor(const BoundOptions& options) {
-  Vector3d variance;
-  variance << options.floor_position * options.floor_position, options.floor_position * options.floor_position,
-      options.floor_heading * options.floor_heading;
-  return variance.asDiagonal();
-}
-
-/// Both ends' noise floors: the far end's seen from the reference, the reference's own by its lever.
-Matrix3d with_floor(const UncertainPose2& relative, const Matrix3d& floor) {
-  const Composition c = compose_with_jacobians(Pose2{}, relative.T_a_b);
-  return relative.covariance + transport(c.by_first, floor) + floor;
-}
-
 }  // namespace
+
+Matrix3d noise_floor(double position, double heading) {
+  return Vector3d(position * position, position * position, heading * heading).asDiagonal();
+}
+
+Matrix3d with_noise_floor(const UncertainPose2& ab, const Matrix3d& floor_a, const Matrix3d& floor_b) {
+  // a's own error moves b by its lever; b's adds as it is, since it is the same in all directions.
+  Matrix3d lever = Matrix3d::Identity();
+  lever(0, 2) = -ab.T_a_b.y;
+  lever(1, 2) = ab.T_a_b.x;
+  return ab.covariance + transport(lever, floor_a) + floor_b;
+}
 
 std::uint32_t InformationGraph::add_pose() {
   edges_.emplace_back();
@@ -66,7 +65,7 @@ std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<con
   std::vector<std::int32_t> place(graph.size(), -1);
   std::priority_queue<Visit, std::vector<Visit>, std::greater<>> queue;
   queue.push({0, reference, reference, nullptr});
-  const Matrix3d floor = noise_floor(options);
+  const Matrix3d floor = noise_floor(options.floor_position, options.floor_heading);
   const Pose2 T_reference_plane = T_plane[reference].inverse();
   while (!queue.empty() && found.size() < options.most) {
     const Visit visit = queue.top();
@@ -77,7 +76,7 @@ std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<con
       const Pose2 T_from_pose = T_plane[visit.from].inverse() * T_plane[visit.pose];
       bounded.relative = compound(found[place[visit.from]].relative, {T_from_pose, visit.edge->covariance});
       bounded.relative.T_a_b = T_reference_plane * T_plane[visit.pose];
-      const ConfidenceInterval interval = confidence_interval(with_floor(bounded.relative, floor));
+      const ConfidenceInterval interval = confidence_interval(with_noise_floor(bounded.relative, floor, floor));
       if (interval.position >= options.position || interval.heading >= options.heading) {
         place[visit.pose] = -2;
         continue;
@@ -93,7 +92,7 @@ std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<con
     }
   }
   for (BoundedPose& bounded : found) {
-    if (bounded.pose != reference) bounded.relative.covariance = with_floor(bounded.relative, floor);
+    if (bounded.pose != reference) bounded.relative.covariance = with_noise_floor(bounded.relative, floor, floor);
   }
   return found;
 }

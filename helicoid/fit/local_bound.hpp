@@ -52,6 +52,11 @@ struct BoundedPose {
 [[nodiscard]] std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
                                                   std::uint32_t reference, const BoundOptions& options = {});
 
+/// The noise floor of a scan, (x, y, yaw).
+[[nodiscard]] Matrix3d noise_floor(double position, double heading);
+/// The covariance of T_a_b with both ends' noise floors, each counted once (design 5.3).
+[[nodiscard]] Matrix3d with_noise_floor(const UncertainPose2& ab, const Matrix3d& floor_a, const Matrix3d& floor_b);
+
 /// The covariance of all `poses` relative to poses[0] from the relations among them alone: exact for that sub-graph, a
 /// bound for the whole. Dense: meant for some tens of poses. Empty matrices where the sub-graph leaves a pose open.
 [[nodiscard]] std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph,
