@@ -24,7 +24,7 @@ endforeach()
 add_library(helicoid_compile_options INTERFACE)
 target_compile_options(helicoid_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
-  -ffp-contract=off $<$<BOOL:${HELICOID_WARNINGS_AS_ERRORS}>:-Werror>)
+  -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${HELICOID_WARNINGS_AS_ERRORS}>:-Werror>)
 
 set(HELICOID_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")
 if(HELICOID_SANITIZE)

@@ -11,6 +11,9 @@ namespace helicoid {
 
 namespace {
 
+/// Every third beam leads the way; all of them settle the pose.
+constexpr std::size_t kFirstStride = 3;
+
 /// What one pairing says at a pose: the normal equations of eq. 13.
 struct Sums {
   Matrix3d information = Matrix3d::Zero();
@@ -157,7 +160,7 @@ Alignment align_scan(const Reference& reference, const ScanPoints& scan, const P
   const double beam_information = 1 / (options.range_sigma * options.range_sigma);
   const double against_prior = beam_information / options.kappa;
   double gate = options.first_gate;
-  std::size_t stride = 2;
+  std::size_t stride = kFirstStride;
   int full_rounds = 0;
   Pairing pairs;
   Sums sums;
@@ -182,7 +185,7 @@ Alignment align_scan(const Reference& reference, const ScanPoints& scan, const P
     }
     const Vector3d moved = difference(T, T_paired);
     const bool small = moved.head<2>().norm() < 0.25 * gate && std::abs(moved[2]) < 0.05 * gate;
-    const bool tiny = moved.head<2>().norm() < 2e-3 && std::abs(moved[2]) < 6e-4;
+    const bool tiny = moved.head<2>().norm() < 5e-3 && std::abs(moved[2]) < 1.5e-3;
     done = stride == 1 && gate <= options.last_gate && (++full_rounds >= 4 || tiny);
     if (gate > options.last_gate) {
       if (small || last_chance) gate = std::max(options.last_gate, 0.4 * gate);

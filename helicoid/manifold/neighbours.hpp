@@ -1,4 +1,4 @@
-// Which patches are neighbours, and how many sheets lie over one another (contract: *Sheets*).
+// Which patches are neighbours (paper III-A, design 5.7): on one sheet, beside or over one another.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace helicoid {
 
-/// For each patch (by id) the patches of its island whose free space overlaps its own in the plane and whose pose
-/// relative to it is known to within eps; ascending.
+/// For each patch (by id) the patches whose free space overlaps its own in the plane (the first half of eq. 2, on a
+/// 10 cm raster) and each of which is confident relative to the other (eq. 12); ascending. Patches that overlap
+/// without being neighbours are, as far as the map knows, different places: one sheet over the other.
 using Neighbours = std::vector<std::vector<PatchId>>;
 
 struct NeighbourOptions {
@@ -16,12 +17,5 @@ struct NeighbourOptions {
   double heading = 0.035;  ///< radians
 };
 [[nodiscard]] Neighbours find_neighbours(const Map& map, const NeighbourOptions& options = {});
-
-/// The sheets of one island.
-struct Sheets {
-  int count = 1;                ///< the largest number of groups of patches over one 10 cm cell; 1 = planar
-  std::vector<int> sheet_of;    ///< by patch id: 0..count-1 a sheet to draw it on; -1 for patches of other islands
-};
-[[nodiscard]] Sheets find_sheets(const Map& map, const Neighbours& neighbours, IslandId island);
 
 }  // namespace helicoid

@@ -23,7 +23,8 @@ struct Patch {
   std::vector<Eigen::Vector2f> free_space;  ///< the polygon s: open ring, anticlockwise; see sensor/free_space.hpp
   std::vector<float> free_ranges;           ///< the polygon's radii, beam by beam, about the laser
   ScanPoints points;
-  double reach = 0;  ///< largest distance of the polygon or of a point from the patch's origin, metres
+  double free_reach = 0;  ///< largest distance of the polygon from the patch's origin, metres
+  double reach = 0;       ///< largest distance of the polygon or of a point from the patch's origin, metres
 };
 
 /// Derives all that follows from a scan. The same scan and laser give the same patch, to the bit.

@@ -13,14 +13,14 @@ struct MapperOptions {
   double patch_spacing = 1.0;
   double patch_turn = 0.70;
   /// The second: this share of the scan's free space is not covered by the local map.
-  double new_ground_share = 0.20;
+  double new_ground_share = 0.25;
   /// And its sign in the match: fewer of the scan's points than this lie on known surfaces.
   double new_surface_share = 0.70;
   /// The local map reaches this far and holds this many patches at most.
   double local_radius = 12;
   std::size_t local_patches = 80;
   /// Patches fused into the reference, and patches that a new patch is related to.
-  std::size_t reference_views = 8;
+  std::size_t reference_views = 6;
   std::size_t relation_views = 6;
   /// The reference is chosen anew when the robot has moved this far.
   double reference_renewal = 0.4;

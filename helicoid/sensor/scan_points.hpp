@@ -17,7 +17,7 @@ struct ScanPoints {
   std::vector<std::uint16_t> beam;  ///< which beam it came from
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
-  void clear();
+  void resize(std::size_t count);
 };
 
 /// True if this range is a measurement of a surface.
@@ -30,6 +30,9 @@ struct ScanPoints {
 /// In double, since moments are differences of large sums.
 struct PrefixMoments {
   double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  [[nodiscard]] PrefixMoments plus(double px, double py) const {
+    return {x + px, y + py, xx + px * px, xy + px * py, yy + py * py};
+  }
 };
 
 /// Turns scans of one laser into points; keeps its tables and buffers between scans, so that no scan allocates.
@@ -40,11 +43,12 @@ class ScanPointExtractor {
   const ScanPoints& extract(const Scan& scan);
 
  private:
-  void find_normals(const Scan& scan, float laser_x, float laser_y);
+  void find_normals(float laser_x, float laser_y);
 
   LaserModel laser_;
   BeamTable table_;
   ScanPoints points_;
+  std::vector<float> spacing_;  ///< between neighbouring beams at a point's range, metres
   std::vector<PrefixMoments> prefix_;
 };
 
