@@ -7,10 +7,13 @@ namespace helicoid {
 
 std::vector<OccupancyGrid> draw_sheets(const Map& map, std::span<const PatchId> patches, const Sheets& sheets,
                                        const GridFrame& frame, int threads, const OccupancyModel& model) {
-  std::vector<std::vector<PatchId>> of_sheet(static_cast<std::size_t>(std::max(sheets.count, 1)));
+  std::vector<std::vector<PatchId>> of_sheet(1);
   for (const PatchId id : patches) {
     const int sheet = id.index() < sheets.sheet_of.size() ? sheets.sheet_of[id.index()] : -1;
-    if (sheet >= 0 && sheet < sheets.count) of_sheet[static_cast<std::size_t>(sheet)].push_back(id);
+    if (sheet < 0) continue;
+    const auto place = static_cast<std::size_t>(sheet);
+    if (place >= of_sheet.size()) of_sheet.resize(place + 1);
+    of_sheet[place].push_back(id);
   }
   std::vector<OccupancyGrid> grids;
   grids.reserve(of_sheet.size());

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "helicoid/charts/occupancy_grid.hpp"
-#include "helicoid/manifold/neighbours.hpp"
+#include "helicoid/manifold/sheets.hpp"
 
 namespace helicoid {
 
-/// One grid a sheet, all in the same frame. Patches that are on no sheet (of other islands) are left out.
+/// One grid a sheet, all in the same frame, at least one. Patches that are on no sheet (of other islands) are left out.
 [[nodiscard]] std::vector<OccupancyGrid> draw_sheets(const Map& map, std::span<const PatchId> patches,
                                                      const Sheets& sheets, const GridFrame& frame, int threads = 1,
                                                      const OccupancyModel& model = {});
