@@ -115,14 +115,16 @@ double draw_scale(cairo_t* cr, double x, double middle, double pixels_a_metre, d
 }
 
 void draw_legend(cairo_t* cr, const View& view, const SheetStack& sheets, std::span<const Way> ways,
-                 const std::string& title, double width, double top) {
+                 const PictureOptions& options, double width, double top) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, kFontSize);
   const double middle = top + kLegendHeight / 2.0;
   double x = draw_scale(cr, 24, middle, view.scale / view.frame.resolution, width);
-  std::string right = title;
-  if (sheets.deepest > 1) {
-    right += fmt::format("{}{} sheets overlap here", title.empty() ? "" : " – ", sheets.deepest);
+  const bool several = sheets.deepest > 1 && options.sheets != 1;
+  std::string right = options.title;
+  if (several) {
+    right += fmt::format("{}{} sheets overlap here", options.title.empty() ? "" : " – ",
+                         options.sheets > 0 ? options.sheets : sheets.deepest);
   }
   const double right_x = width - 24 - text_width(cr, right);
   for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -143,7 +145,7 @@ void draw_legend(cairo_t* cr, const View& view, const SheetStack& sheets, std::s
     draw_text(cr, x + 34, middle + 6, ways[i].name);
     x += needed;
   }
-  if (sheets.deepest > 1) {
+  if (several) {
     set_colour(cr, charts::kOverlap);
     cairo_rectangle(cr, right_x - 30, middle - 8, 20, 16);
     cairo_fill(cr);
@@ -183,7 +185,7 @@ void draw_over(cairo_t* cr, const View& view, const SheetStack& sheets, std::spa
                const PictureOptions& options, const Raster& raster) {
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   for (const Way& way : ways) draw_way(cr, view, way);
-  draw_legend(cr, view, sheets, ways, options.title, raster.width, raster.height - kLegendHeight);
+  draw_legend(cr, view, sheets, ways, options, raster.width, raster.height - kLegendHeight);
 }
 
 }  // namespace

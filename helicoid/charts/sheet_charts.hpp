@@ -20,6 +20,9 @@ struct SheetStack {
   std::vector<std::uint8_t> depth;  ///< by cell: how many sheets know it (up to 255)
   int deepest = 0;                  ///< the largest depth
 };
+/// The same as stack(draw_sheets(...)), with no more than one sheet's grid in memory at a time.
+[[nodiscard]] SheetStack draw_stack(const Map& map, std::span<const PatchId> patches, const Sheets& sheets,
+                                    const GridFrame& frame, int threads = 1, const OccupancyModel& model = {});
 [[nodiscard]] SheetStack stack(std::span<const OccupancyGrid> sheets);
 
 }  // namespace helicoid
