@@ -20,15 +20,19 @@ class Pen {
   explicit Pen(OccupancyGrid& grid)
       : grid_(grid),
         frame_(grid.frame),
-        is_hit_(frame_.size(), 0),
+        vote_(frame_.size(), kMayMiss),
+        beside_(frame_.size(), 0),
         crossings_(static_cast<std::size_t>(frame_.height)) {}
+
+  /// By cell: 1 if it lies in free space beside a surface of the same patch.
+  [[nodiscard]] std::vector<std::uint8_t> take_beside() { return std::move(beside_); }
 
   void draw(const Patch& patch, const Pose2& T_plane_patch) {
     place(T_plane_patch);
     draw_surfaces(patch);
     draw_free_space(patch);
-    for (const std::size_t cell : hit_cells_) is_hit_[cell] = 0;
-    hit_cells_.clear();
+    for (const std::size_t cell : touched_) vote_[cell] = kMayMiss;
+    touched_.clear();
   }
 
  private:
@@ -46,12 +50,24 @@ class Pen {
   }
   [[nodiscard]] Point to_cells(float x, float y) const { return {x_ + cos_ * x - sin_ * y, y_ + sin_ * x + cos_ * y}; }
 
+  /// What the patch at hand may say about a cell: 1 where its free space counts as a miss.
+  enum Vote : std::uint8_t { kSilent = 0, kMayMiss = 1, kHit = 2 };
+
+  void touch(std::size_t cell, Vote vote) {
+    if (vote_[cell] == kHit || vote_[cell] == vote) return;
+    if (vote_[cell] == kMayMiss) touched_.push_back(cell);
+    vote_[cell] = vote;
+  }
+
   void hit(int column, int row) {
     if (!frame_.inside(column, row)) return;
     const std::size_t cell = frame_.index(column, row);
-    if (is_hit_[cell] != 0) return;
-    is_hit_[cell] = 1;
-    hit_cells_.push_back(cell);
+    if (vote_[cell] == kHit) return;
+    touch(cell, kHit);
+    if (column > 0) touch(cell - 1, kSilent);
+    if (column + 1 < frame_.width) touch(cell + 1, kSilent);
+    if (row > 0) touch(cell - static_cast<std::size_t>(frame_.width), kSilent);
+    if (row + 1 < frame_.height) touch(cell + static_cast<std::size_t>(frame_.width), kSilent);
     if (grid_.hits[cell] != kFull) ++grid_.hits[cell];
   }
 
@@ -106,11 +122,11 @@ class Pen {
     for (int row = first; row < last; ++row) fill_row(row);
   }
 
-  /// The polygon of free_space_polygon with radii that end a cell short.
+  /// The polygon of free_space_polygon with radii that end half a cell short.
   void outline(const Patch& patch) {
     ring_.clear();
     const Pose2& T = patch.scan.T_robot_laser;
-    const auto step = static_cast<float>(frame_.resolution);
+    const auto step = static_cast<float>(0.5 * frame_.resolution);
     const auto c = static_cast<float>(std::cos(T.yaw));
     const auto s = static_cast<float>(std::sin(T.yaw));
     const auto lx = static_cast<float>(T.x);
@@ -156,9 +172,11 @@ class Pen {
       const int last = std::clamp(static_cast<int>(std::ceil(crossings[i + 1] - 0.5F)), 0, frame_.width);
       if (first >= last) continue;
       std::uint16_t* misses = grid_.misses.data() + frame_.index(first, row);
-      const std::uint8_t* is_hit = is_hit_.data() + frame_.index(first, row);
+      const std::uint8_t* vote = vote_.data() + frame_.index(first, row);
+      std::uint8_t* beside = beside_.data() + frame_.index(first, row);
       for (int k = 0; k < last - first; ++k) {
-        misses[k] = static_cast<std::uint16_t>(misses[k] + static_cast<int>(is_hit[k] == 0 && misses[k] != kFull));
+        beside[k] = static_cast<std::uint8_t>(beside[k] | static_cast<int>(vote[k] == kSilent));
+        misses[k] = static_cast<std::uint16_t>(misses[k] + static_cast<int>(vote[k] == kMayMiss && misses[k] != kFull));
       }
     }
     crossings.clear();
@@ -166,8 +184,9 @@ class Pen {
 
   OccupancyGrid& grid_;
   const GridFrame& frame_;
-  std::vector<std::uint8_t> is_hit_;
-  std::vector<std::size_t> hit_cells_;
+  std::vector<std::uint8_t> vote_;
+  std::vector<std::uint8_t> beside_;
+  std::vector<std::size_t> touched_;
   std::vector<std::vector<float>> crossings_;
   std::vector<Point> ring_;
   BeamTable table_;
@@ -175,12 +194,26 @@ class Pen {
   float x_ = 0, y_ = 0, cos_ = 1, sin_ = 0;
 };
 
-OccupancyGrid draw_share(const Map& map, std::span<const PatchId> patches, const GridFrame& frame,
-                         const OccupancyModel& model) {
-  OccupancyGrid grid{frame, std::vector<std::uint16_t>(frame.size()), std::vector<std::uint16_t>(frame.size()), model};
-  Pen pen(grid);
+/// What a thread counts.
+struct Share {
+  OccupancyGrid grid;
+  std::vector<std::uint8_t> beside;
+};
+
+Share draw_share(const Map& map, std::span<const PatchId> patches, const GridFrame& frame,
+                 const OccupancyModel& model) {
+  Share share{{frame, std::vector<std::uint16_t>(frame.size()), std::vector<std::uint16_t>(frame.size()), model}, {}};
+  Pen pen(share.grid);
   for (const PatchId id : patches) pen.draw(map.patch(id), map.T_plane_patch(id));
-  return grid;
+  share.beside = pen.take_beside();
+  return share;
+}
+
+/// Cells of which it is known only that they lie beside a wall are free, if weakly.
+void fill_beside_walls(OccupancyGrid& grid, const std::vector<std::uint8_t>& beside) {
+  for (std::size_t cell = 0; cell < beside.size(); ++cell) {
+    if (grid.misses[cell] == 0) grid.misses[cell] = beside[cell];
+  }
 }
 
 void add(std::vector<std::uint16_t>& sum, const std::vector<std::uint16_t>& more) {
@@ -200,21 +233,24 @@ OccupancyGrid draw_occupancy(const Map& map, std::span<const PatchId> patches, c
   // Each thread counts its share into a grid of its own; whole numbers add up to the same in any order.
   const std::size_t shares =
       std::clamp<std::size_t>(static_cast<std::size_t>(std::max(threads, 1)), 1, 1 + patches.size() / 64);
-  std::vector<OccupancyGrid> grids(shares);
+  std::vector<Share> drawn(shares);
   const auto draw = [&](std::size_t share) {
     const std::size_t first = patches.size() * share / shares;
     const std::size_t last = patches.size() * (share + 1) / shares;
-    grids[share] = draw_share(map, patches.subspan(first, last - first), frame, model);
+    drawn[share] = draw_share(map, patches.subspan(first, last - first), frame, model);
   };
   std::vector<std::thread> helpers;
   for (std::size_t share = 1; share < shares; ++share) helpers.emplace_back(draw, share);
   draw(0);
   for (std::thread& helper : helpers) helper.join();
+  OccupancyGrid& sum = drawn[0].grid;
   for (std::size_t share = 1; share < shares; ++share) {
-    add(grids[0].hits, grids[share].hits);
-    add(grids[0].misses, grids[share].misses);
+    add(sum.hits, drawn[share].grid.hits);
+    add(sum.misses, drawn[share].grid.misses);
+    for (std::size_t i = 0; i < frame.size(); ++i) drawn[0].beside[i] |= drawn[share].beside[i];
   }
-  return std::move(grids[0]);
+  fill_beside_walls(sum, drawn[0].beside);
+  return std::move(sum);
 }
 
 std::vector<CellState> classify(const OccupancyGrid& grid) {

@@ -11,7 +11,7 @@ namespace helicoid {
 
 /// What one patch's view of a cell adds to its log-odds (Moravec and Elfes 1985), and ROS's thresholds.
 struct OccupancyModel {
-  double hit = 2.6;              ///< a surface in the cell
+  double hit = 4.0;              ///< a surface in the cell: a wall is one if a quarter of the views say so
   double miss = -1.5;            ///< free space over the cell: one is enough to call it free
   double occupied_above = 0.65;  ///< probability
   double free_below = 0.196;     ///< probability
@@ -34,7 +34,9 @@ struct OccupancyGrid {
 
 /// Draws these patches (an island's, or a sheet's). Surfaces are drawn as the cells that the line between neighbouring
 /// points of one surface runs through; free space as the cells whose centre lies in the patch's free-space polygon,
-/// drawn in by one cell so that noise does not wear walls away. The same bytes for any number of threads.
+/// drawn in by half a cell; a patch says nothing about cells beside its
+/// own surfaces, so that grazing views and noise do not wear walls away (such a cell counts as
+/// missed once if no patch says more). The same bytes for any number of threads.
 [[nodiscard]] OccupancyGrid draw_occupancy(const Map& map, std::span<const PatchId> patches, const GridFrame& frame,
                                            int threads = 1, const OccupancyModel& model = {});
 

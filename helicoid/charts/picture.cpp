@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "helicoid/charts/palette.hpp"
@@ -114,14 +115,16 @@ double draw_scale(cairo_t* cr, double x, double middle, double pixels_a_metre, d
 }
 
 void draw_legend(cairo_t* cr, const View& view, const SheetStack& sheets, std::span<const Way> ways,
-                 const std::string& title, double width, double top) {
+                 const PictureOptions& options, double width, double top) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, kFontSize);
   const double middle = top + kLegendHeight / 2.0;
   double x = draw_scale(cr, 24, middle, view.scale / view.frame.resolution, width);
-  std::string right = title;
-  if (sheets.deepest > 1) {
-    right += fmt::format("{}{} sheets overlap here", title.empty() ? "" : " – ", sheets.deepest);
+  const bool several = sheets.deepest > 1 && options.sheets != 1;
+  std::string right = options.title;
+  if (several) {
+    right += fmt::format("{}{} sheets overlap here", options.title.empty() ? "" : " – ",
+                         options.sheets > 0 ? options.sheets : sheets.deepest);
   }
   const double right_x = width - 24 - text_width(cr, right);
   for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -142,7 +145,7 @@ void draw_legend(cairo_t* cr, const View& view, const SheetStack& sheets, std::s
     draw_text(cr, x + 34, middle + 6, ways[i].name);
     x += needed;
   }
-  if (sheets.deepest > 1) {
+  if (several) {
     set_colour(cr, charts::kOverlap);
     cairo_rectangle(cr, right_x - 30, middle - 8, 20, 16);
     cairo_fill(cr);
@@ -151,47 +154,38 @@ void draw_legend(cairo_t* cr, const View& view, const SheetStack& sheets, std::s
   draw_text(cr, right_x, middle + 6, right);
 }
 
-Result<std::string> encode_png(cairo_surface_t* surface) {
-  cairo_surface_flush(surface);
-  const int width = cairo_image_surface_get_width(surface);
-  const int height = cairo_image_surface_get_height(surface);
-  const int stride = cairo_image_surface_get_stride(surface);
-  const unsigned char* data = cairo_image_surface_get_data(surface);
-  std::string rgb;
-  rgb.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-  for (int y = 0; y < height; ++y) {
-    const unsigned char* row = data + static_cast<std::ptrdiff_t>(y) * stride;
-    for (int x = 0; x < width; ++x) {
-      std::uint32_t pixel = 0;
-      std::memcpy(&pixel, row + 4 * x, 4);
-      for (const unsigned shift : {16U, 8U, 0U}) rgb.push_back(static_cast<char>(pixel >> shift & 0xFFU));
-    }
+/// The pixels become the bytes of the file; they are packed in place, so that no second picture is held.
+Result<std::string> encode_png(Raster raster) {
+  auto* rgb = reinterpret_cast<unsigned char*>(raster.pixels.data());
+  for (std::size_t i = 0; i < raster.pixels.size(); ++i) {
+    const std::uint32_t pixel = raster.pixels[i];
+    rgb[3 * i] = static_cast<unsigned char>(pixel >> 16U);
+    rgb[3 * i + 1] = static_cast<unsigned char>(pixel >> 8U);
+    rgb[3 * i + 2] = static_cast<unsigned char>(pixel);
   }
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(width);
-  image.height = static_cast<png_uint_32>(height);
+  image.width = static_cast<png_uint_32>(raster.width);
+  image.height = static_cast<png_uint_32>(raster.height);
   image.format = PNG_FORMAT_RGB;
   image.flags = PNG_IMAGE_FLAG_FAST;
-  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
-  png_alloc_size_t size = bytes.size();
-  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
-    return fail("the picture cannot be encoded: {}", image.message);
-  }
-  bytes.resize(size);
-  return bytes;
+  char* bytes = nullptr;
+  std::size_t size = 0;
+  std::FILE* memory = ::open_memstream(&bytes, &size);
+  if (memory == nullptr) return fail("there is no memory to encode the picture");
+  const int encoded = png_image_write_to_stdio(&image, memory, 0, rgb, 0, nullptr);
+  const bool closed = std::fclose(memory) == 0;
+  const std::unique_ptr<char, decltype(&std::free)> owner(bytes, std::free);
+  if (encoded == 0) return fail("the picture cannot be encoded: {}", std::string(image.message));
+  if (!closed) return fail("there is no memory to encode the picture");
+  return std::string(bytes, size);
 }
 
-void copy_raster(const Raster& raster, cairo_surface_t* surface, int left) {
-  cairo_surface_flush(surface);
-  unsigned char* data = cairo_image_surface_get_data(surface);
-  const int stride = cairo_image_surface_get_stride(surface);
-  for (int y = 0; y < raster.height; ++y) {
-    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width);
-    std::memcpy(data + static_cast<std::ptrdiff_t>(y) * stride + static_cast<std::ptrdiff_t>(4) * left,
-                raster.pixels.data() + first, static_cast<std::size_t>(raster.width) * 4);
-  }
-  cairo_surface_mark_dirty(surface);
+void draw_over(cairo_t* cr, const View& view, const SheetStack& sheets, std::span<const Way> ways,
+               const PictureOptions& options, const Raster& raster) {
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  for (const Way& way : ways) draw_way(cr, view, way);
+  draw_legend(cr, view, sheets, ways, options, raster.width, raster.height - kLegendHeight);
 }
 
 }  // namespace
@@ -200,23 +194,23 @@ Result<void> write_picture(const SheetStack& sheets, std::span<const Way> ways, 
                            const PictureOptions& options) {
   const GridFrame& frame = sheets.grid.frame;
   const int longest = std::max({frame.width, frame.height, 1});
-  const Raster raster = charts::paint(sheets, std::clamp(options.longest_side / longest, 1, 8));
-  const int width = std::max(raster.width, kSmallestWidth);
-  const View view{frame, raster.scale, static_cast<double>((width - raster.width) / 2)};
-  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, raster.height + kLegendHeight),
-                        cairo_surface_destroy);
-  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) {
-    return fail("{}: a picture of {} x {} pixels is too large; draw with coarser cells", path, width, raster.height);
+  Raster raster = charts::paint(sheets, std::clamp(options.longest_side / longest, 1, 8),
+                                {.smallest_width = kSmallestWidth, .foot = kLegendHeight});
+  {
+    // Cairo draws straight into the raster's pixels.
+    const Surface surface(
+        cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(raster.pixels.data()), CAIRO_FORMAT_RGB24,
+                                            raster.width, raster.height, 4 * raster.width),
+        cairo_surface_destroy);
+    if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) {
+      return fail("{}: a picture of {} x {} pixels is too large; draw with coarser cells", path, raster.width,
+                  raster.height);
+    }
+    const Context context(cairo_create(surface.get()), cairo_destroy);
+    draw_over(context.get(), {frame, raster.scale, static_cast<double>(raster.left)}, sheets, ways, options, raster);
+    cairo_surface_flush(surface.get());
   }
-  const Context context(cairo_create(surface.get()), cairo_destroy);
-  cairo_t* cr = context.get();
-  set_colour(cr, charts::kUnknown);
-  cairo_paint(cr);
-  copy_raster(raster, surface.get(), static_cast<int>(view.left));
-  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  for (const Way& way : ways) draw_way(cr, view, way);
-  draw_legend(cr, view, sheets, ways, options.title, width, raster.height);
-  Result<std::string> bytes = encode_png(surface.get());
+  const Result<std::string> bytes = encode_png(std::move(raster));
   if (!bytes) return fail("{}: {}", path, bytes.error().message);
   return charts::write_whole_file(path, *bytes);
 }

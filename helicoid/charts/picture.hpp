@@ -12,6 +12,7 @@ namespace helicoid {
 
 struct PictureOptions {
   int longest_side = 2000;  ///< of the map's part, pixels; a cell gets a whole number of them, at least 1, at most 8
+  int sheets = 0;           ///< the number that the caption gives (Sheets::count); 0: the deepest stack of drawn cells
   std::string title;        ///< such as "intel" or "island 2 of 3"; may be empty
 };
 

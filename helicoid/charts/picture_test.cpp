@@ -69,6 +69,19 @@ TEST(SheetStack, ShowsTheFirstSheetWhereTwoOverlapAndMarksIt) {
   }
 }
 
+TEST(SheetStack, DrawnSheetBySheetIsTheStackOfAllSheets) {
+  const synthetic::Builder builder = synthetic::pillar_map(2);
+  Sheets sheets{3, {}};
+  for (int i = 0; i < 32; ++i) sheets.sheet_of.push_back(i % 4 - 1);
+  const auto frame = frame_around(builder.map, builder.patches());
+  const SheetStack all = stack(draw_sheets(builder.map, builder.patches(), sheets, frame));
+  const SheetStack one = draw_stack(builder.map, builder.patches(), sheets, frame, 2);
+  EXPECT_EQ(one.grid.hits, all.grid.hits);
+  EXPECT_EQ(one.grid.misses, all.grid.misses);
+  EXPECT_EQ(one.depth, all.depth);
+  EXPECT_EQ(one.deepest, all.deepest);
+}
+
 class Picture : public testing::Test {
  protected:
   static std::string draw(const SheetStack& sheets, const synthetic::Builder& builder, const char* name) {

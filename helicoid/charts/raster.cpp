@@ -10,11 +10,27 @@ namespace helicoid::charts {
 
 namespace {
 
+/// A wall of one cell is smoothed to half its height at most, a slanting one to less: its edge lies below that.
+constexpr int kWallEdge = 86;
+
 /// What is interpolated, by cell, 0..255, with a border of one cell all round.
 struct Field {
   int width = 0;
   std::vector<std::uint8_t> known, wall, overlap;
 };
+
+/// The field averaged over 3 x 3 cells with weights 1 2 1: what makes slanting walls straight rather than stairs.
+void smooth(std::vector<std::uint8_t>& values, std::size_t width) {
+  const std::vector<std::uint8_t> sharp = values;
+  const std::uint8_t* v = sharp.data();
+  for (std::size_t cell = width + 1; cell + width + 1 < values.size(); ++cell) {
+    const std::uint8_t* at = v + cell;
+    const std::uint8_t* up = at + width;
+    const std::uint8_t* down = at - width;
+    const int sum = 4 * at[0] + 2 * (at[-1] + at[1] + up[0] + down[0]) + up[-1] + up[1] + down[-1] + down[1];
+    values[cell] = static_cast<std::uint8_t>(sum / 16);
+  }
+}
 
 Field make_field(const SheetStack& sheets) {
   const GridFrame& frame = sheets.grid.frame;
@@ -34,13 +50,15 @@ Field make_field(const SheetStack& sheets) {
       field.overlap[to] = sheets.depth[cell] > 1 ? 255 : 0;
     }
   }
+  smooth(field.known, static_cast<std::size_t>(field.width));
+  smooth(field.wall, static_cast<std::size_t>(field.width));
   return field;
 }
 
 /// 0..256 as `value` 0..255 rises through one half, over a width that is about one pixel at this scale.
 std::array<int, 256> make_edge(int scale, int middle) {
   std::array<int, 256> edge{};
-  const double width = std::clamp(255.0 / scale, 60.0, 255.0);
+  const double width = std::clamp(160.0 / scale, 40.0, 110.0);
   for (int value = 0; value < 256; ++value) {
     const double at = std::clamp((value - middle) / width + 0.5, 0.0, 1.0);
     edge[static_cast<std::size_t>(value)] = static_cast<int>(std::lround(256 * at * at * (3 - 2 * at)));
@@ -76,7 +94,7 @@ std::vector<Between> places(int cells, int scale) {
 class Painter {
  public:
   Painter(const Field& field, int scale)
-      : field_(field), scale_(scale), floor_edge_(make_edge(scale, 128)), wall_edge_(make_edge(scale, 112)) {}
+      : field_(field), scale_(scale), floor_edge_(make_edge(scale, 128)), wall_edge_(make_edge(scale, kWallEdge)) {}
 
   void paint_row(const std::vector<Between>& columns, const Between& row, int y, std::uint32_t* pixels) const {
     const std::size_t below = static_cast<std::size_t>(row.cell) * static_cast<std::size_t>(field_.width);
@@ -115,18 +133,23 @@ class Painter {
 
 }  // namespace
 
-Raster paint(const SheetStack& sheets, int scale) {
+Raster paint(const SheetStack& sheets, int scale, const RasterMargins& margins) {
   const GridFrame& frame = sheets.grid.frame;
   const Field field = make_field(sheets);
-  Raster raster{frame.width * scale, frame.height * scale, scale, {}};
-  raster.pixels.resize(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height));
+  const int map_height = frame.height * scale;
+  Raster raster;
+  raster.width = std::max(frame.width * scale, margins.smallest_width);
+  raster.height = map_height + margins.foot;
+  raster.scale = scale;
+  raster.left = (raster.width - frame.width * scale) / 2;
+  raster.pixels.assign(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height), kUnknown);
   const std::vector<Between> columns = places(frame.width, scale);
   const std::vector<Between> rows = places(frame.height, scale);
   const Painter painter(field, scale);
-  for (int y = 0; y < raster.height; ++y) {
-    const Between& row = rows[static_cast<std::size_t>(raster.height - 1 - y)];
+  for (int y = 0; y < map_height; ++y) {
+    const Between& row = rows[static_cast<std::size_t>(map_height - 1 - y)];
     const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width);
-    painter.paint_row(columns, row, y, raster.pixels.data() + first);
+    painter.paint_row(columns, row, y, raster.pixels.data() + first + raster.left);
   }
   return raster;
 }

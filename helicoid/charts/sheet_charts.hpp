@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "helicoid/charts/occupancy_grid.hpp"
-#include "helicoid/manifold/neighbours.hpp"
+#include "helicoid/manifold/sheets.hpp"
 
 namespace helicoid {
 
-/// One grid a sheet, all in the same frame. Patches that are on no sheet (of other islands) are left out.
+/// One grid a sheet, all in the same frame, at least one. Patches that are on no sheet (of other islands) are left out.
 [[nodiscard]] std::vector<OccupancyGrid> draw_sheets(const Map& map, std::span<const PatchId> patches,
                                                      const Sheets& sheets, const GridFrame& frame, int threads = 1,
                                                      const OccupancyModel& model = {});
@@ -20,6 +20,9 @@ struct SheetStack {
   std::vector<std::uint8_t> depth;  ///< by cell: how many sheets know it (up to 255)
   int deepest = 0;                  ///< the largest depth
 };
+/// The same as stack(draw_sheets(...)), with no more than one sheet's grid in memory at a time.
+[[nodiscard]] SheetStack draw_stack(const Map& map, std::span<const PatchId> patches, const Sheets& sheets,
+                                    const GridFrame& frame, int threads = 1, const OccupancyModel& model = {});
 [[nodiscard]] SheetStack stack(std::span<const OccupancyGrid> sheets);
 
 }  // namespace helicoid

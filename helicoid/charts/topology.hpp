@@ -7,6 +7,7 @@
 
 #include "helicoid/base/result.hpp"
 #include "helicoid/manifold/neighbours.hpp"
+#include "helicoid/manifold/sheets.hpp"
 
 namespace helicoid {
 
