@@ -11,7 +11,7 @@
 
 #include "helicoid/charts/palette.hpp"
 #include "helicoid/charts/raster.hpp"
-#include "helicoid/charts/whole_file.hpp"
+#include "helicoid/base/whole_file.hpp"
 
 namespace helicoid {
 
@@ -212,7 +212,7 @@ Result<void> write_picture(const SheetStack& sheets, std::span<const Way> ways, 
   }
   const Result<std::string> bytes = encode_png(std::move(raster));
   if (!bytes) return fail("{}: {}", path, bytes.error().message);
-  return charts::write_whole_file(path, *bytes);
+  return write_whole_file(path, *bytes);
 }
 
 }  // namespace helicoid

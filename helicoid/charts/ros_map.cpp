@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "helicoid/charts/whole_file.hpp"
+#include "helicoid/base/whole_file.hpp"
 
 namespace helicoid {
 
@@ -18,9 +18,9 @@ Result<void> write_ros_map(const OccupancyGrid& grid, const std::string& stem) {
       image.push_back(static_cast<char>(grey));
     }
   }
-  if (Result<void> written = charts::write_whole_file(stem + ".pgm", image); !written) return written;
+  if (Result<void> written = write_whole_file(stem + ".pgm", image); !written) return written;
   const std::string name = std::filesystem::path(stem).filename().string();
-  return charts::write_whole_file(
+  return write_whole_file(
       stem + ".yaml", fmt::format("image: {}.pgm\nmode: trinary\nresolution: {:.6f}\norigin: [{:.6f}, {:.6f}, 0.0]\n"
                                   "negate: 0\noccupied_thresh: {}\nfree_thresh: {}\n",
                                   name, frame.resolution, frame.origin.x(), frame.origin.y(), grid.model.occupied_above,

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "helicoid/charts/palette.hpp"
-#include "helicoid/charts/whole_file.hpp"
+#include "helicoid/base/whole_file.hpp"
 
 namespace helicoid {
 
@@ -182,7 +182,7 @@ std::string to_svg(const SketchDrawing& drawing) {
 }
 
 Result<void> write_sketch(const SketchDrawing& drawing, const std::string& path) {
-  return charts::write_whole_file(path, to_svg(drawing));
+  return write_whole_file(path, to_svg(drawing));
 }
 
 }  // namespace helicoid

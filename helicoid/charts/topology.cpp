@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "helicoid/charts/whole_file.hpp"
+#include "helicoid/base/whole_file.hpp"
 
 namespace helicoid {
 
@@ -91,7 +91,7 @@ std::string to_geojson(const Topology& topology) {
 }
 
 Result<void> write_topology(const Topology& topology, const std::string& path) {
-  return charts::write_whole_file(path, to_geojson(topology));
+  return write_whole_file(path, to_geojson(topology));
 }
 
 }  // namespace helicoid

@@ -1,9 +1,9 @@
-#include "helicoid/charts/whole_file.hpp"
+#include "helicoid/base/whole_file.hpp"
 
 #include <filesystem>
 #include <fstream>
 
-namespace helicoid::charts {
+namespace helicoid {
 
 Result<void> write_whole_file(const std::string& path, std::string_view bytes) {
   const std::string beside = path + ".part";
@@ -26,4 +26,4 @@ Result<void> write_whole_file(const std::string& path, std::string_view bytes) {
   return fail("{}: cannot be replaced: {}", path, reason);
 }
 
-}  // namespace helicoid::charts
+}  // namespace helicoid

@@ -6,9 +6,9 @@
 
 #include "helicoid/base/result.hpp"
 
-namespace helicoid::charts {
+namespace helicoid {
 
 /// Writes the bytes beside `path` and renames. Errors: the place cannot be written, the disc is full.
 [[nodiscard]] Result<void> write_whole_file(const std::string& path, std::string_view bytes);
 
-}  // namespace helicoid::charts
+}  // namespace helicoid
