@@ -106,6 +106,18 @@ bool CarmenReader::next_line(std::string_view& line) {
   return true;
 }
 
+std::size_t CarmenReader::bytes() const {
+  std::size_t sum = 0;
+  for (const TextFile& file : files_) sum += file.text.size();
+  return sum;
+}
+
+std::size_t CarmenReader::bytes_done() const {
+  std::size_t sum = at_;
+  for (std::size_t i = 0; i < file_; ++i) sum += files_[i].text.size();
+  return sum;
+}
+
 const Event* CarmenReader::next() {
   std::string_view line;
   while (next_line(line)) {

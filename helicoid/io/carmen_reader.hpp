@@ -28,6 +28,9 @@ class CarmenReader {
   [[nodiscard]] const std::vector<LaserModel>& lasers() const { return lasers_; }
   void set_lasers(std::vector<LaserModel> lasers) { lasers_ = std::move(lasers); }
   [[nodiscard]] const std::vector<Skipped>& skipped() const { return skipped_.all(); }
+  /// How much text there is, and how much of it was read so far.
+  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::size_t bytes_done() const;
   /// What a person should know beside the counts.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 

@@ -1,7 +1,9 @@
 #include "helicoid/mapping/mapper.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <optional>
 
 #include "helicoid/align/align_scan.hpp"
@@ -33,6 +35,12 @@ struct RobotState {
   double turn = 0;          ///< radians
 };
 
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 bool has_moved(const Pose2& from, const Pose2& to, double distance, double angle) {
   return std::hypot(to.x - from.x, to.y - from.y) > distance || std::abs(wrap_angle(to.yaw - from.yaw)) > angle;
 }
@@ -55,6 +63,7 @@ struct Mapper::State {
   Step start_island(RobotState& robot, const Event& event, const Scan& scan);
   void renew_reference(RobotState& robot, const Pose2& T_anchor_robot);
   Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const LaserModel& laser);
+  void count(const Event& event, const Sighting& sighting);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched);
   void relate_to_last(RobotState& robot, PatchId id);
   void add_relation(const Relation& relation);
@@ -94,6 +103,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
     robot.motion.learn(motion, T_anchor_last.inverse() * alignment.T_reference_scan);
   } else {
     ++counts.predicted;
+    if (points.size() == 0) ++counts.empty_scans;
     robot.pose.T_patch_robot = prior.T_reference_scan;
   }
   const Matrix3d information =
@@ -118,6 +128,18 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   result.pose = robot.pose;
   if (!keep_it) reanchor(robot);
   return result;
+}
+
+void Mapper::State::count(const Event& event, const Sighting& sighting) {
+  const std::string& self = map.robot(event.robot).name;
+  const auto is_named = [&](const RobotRecord& r) { return r.name == sighting.observed; };
+  if (sighting.observed == self) {
+    ++counts.self_sightings;
+  } else if (std::none_of(map.robots().begin(), map.robots().end(), is_named)) {
+    ++counts.unidentified_sightings;
+  } else {
+    ++counts.sightings;
+  }
 }
 
 Step Mapper::State::start_island(RobotState& robot, const Event& event, const Scan& scan) {
@@ -231,6 +253,7 @@ void Mapper::State::reanchor(RobotState& robot) {
 
 void Mapper::State::fit_islands() {
   if (patches_at_last_fit == map.patch_count()) return;
+  const double began = thread_seconds();
   patches_at_last_fit = map.patch_count();
   for (const Island& island : map.islands()) {
     std::vector<Pose2> start;
@@ -240,6 +263,7 @@ void Mapper::State::fit_islands() {
     for (std::size_t i = 0; i < start.size(); ++i) editor.set_pose(island.patches[i], fit.poses[i]);
   }
   for (RobotState& robot : robots) robot.stale = true;
+  times.fit_s += thread_seconds() - began;
 }
 
 Mapper::Mapper(const MapperOptions& options) : state_(std::make_unique<State>(options)) {}
@@ -256,6 +280,7 @@ RobotId Mapper::add_robot(const std::string& name, const std::vector<LaserModel>
 
 Step Mapper::process(const Event& event) {
   if (const auto* scan = std::get_if<Scan>(&event.body)) return state_->step(event, *scan);
+  if (const auto* sighting = std::get_if<Sighting>(&event.body)) state_->count(event, *sighting);
   return {};
 }
 

@@ -1,0 +1,125 @@
+#include "apps/map_run.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <ctime>
+
+namespace helicoid {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+void interrupt(int) { interrupted = 1; }
+
+/// Ctrl-C asks for an end instead of making one, as long as this lives.
+class InterruptGuard {
+ public:
+  InterruptGuard() : previous_(std::signal(SIGINT, interrupt)) { interrupted = 0; }
+  ~InterruptGuard() { std::signal(SIGINT, previous_); }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  void (*previous_)(int);
+};
+
+/// Which of a robot's scans a job asks for.
+class Selection {
+ public:
+  Selection(const MapJob& job, std::size_t robots) : job_(job), first_(robots, 0), seen_(robots, 0) {}
+  bool wants(const Event& event) {
+    const std::size_t robot = event.robot.index();
+    if (!std::holds_alternative<Scan>(event.body)) return true;
+    if (seen_[robot] == 0) first_[robot] = event.stamp;
+    const std::size_t index = seen_[robot]++;
+    const double since = event.stamp - first_[robot];
+    return index % job_.every == 0 && since >= job_.from && since <= job_.to;
+  }
+
+ private:
+  const MapJob& job_;
+  std::vector<double> first_;
+  std::vector<std::size_t> seen_;
+};
+
+void collect_skipped(MapRun& run, MergedLogs& logs) {
+  for (const auto& robot : logs.robots()) {
+    for (const Skipped& s : robot.reader->skipped()) run.skipped.push_back(s);
+    for (const std::string& w : robot.reader->warnings()) run.warnings.push_back(w);
+  }
+  const MapperCounts& counts = run.mapper.counts();
+  const auto add = [&](const char* reason, std::size_t count) {
+    if (count > 0) run.skipped.push_back({reason, count, ""});
+  };
+  add("impossible odometry step; constant velocity used instead", counts.odometry_jumps);
+  add("scan without a return; placed by odometry", counts.empty_scans);
+  add("scan that matched nothing; placed by odometry", counts.predicted - counts.empty_scans);
+  add("scan without odometry; constant velocity used instead", counts.scans_without_odometry);
+  add("sighting of an unknown robot, kept as unidentified", counts.unidentified_sightings);
+  add("sighting of the robot itself", counts.self_sightings);
+  add("sighting, not used yet", counts.sightings);
+}
+
+}  // namespace
+
+double thread_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Result<MapRun> run_map(MapJob job) {
+  const InterruptGuard guard;
+  const double start = thread_cpu_seconds();
+  const auto began = std::chrono::steady_clock::now();
+  Result<MergedLogs> logs = MergedLogs::open(job.robots);
+  if (!logs) return tl::unexpected(logs.error());
+  MapRun run;
+  run.mapper = Mapper(job.mapper);
+  run.began = began;
+  std::size_t bytes = 0;
+  for (auto& robot : logs->robots()) {
+    std::vector<LaserModel> lasers = robot.reader->lasers();
+    for (LaserModel& laser : lasers) {
+      if (!job.laser.empty()) {
+        Result<LaserModel> named = load_laser(job.laser, laser);
+        if (!named) return tl::unexpected(named.error());
+        laser = *named;
+      }
+      run.lasers.push_back(fmt::format("{}: {}", robot.logs.name, describe(laser)));
+    }
+    run.mapper.add_robot(robot.logs.name, lasers);
+    run.logs.push_back(fmt::format("{}", fmt::join(robot.logs.paths, ",")));
+    bytes += robot.reader->bytes();
+  }
+  Selection selection(job, logs->robots().size());
+  double mapping = 0;
+  while (const Event* event = logs->next()) {
+    if (interrupted != 0) break;
+    if (!selection.wants(*event)) continue;
+    if (!std::holds_alternative<Scan>(event->body)) {
+      run.mapper.process(*event);
+      continue;
+    }
+    const double before = thread_cpu_seconds();
+    run.mapper.process(*event);
+    run.scan_seconds.push_back(thread_cpu_seconds() - before);
+    mapping += run.scan_seconds.back();
+    if (job.progress && run.scan_seconds.size() % 256 == 0) {
+      std::size_t done = 0;
+      for (const auto& robot : logs->robots()) done += robot.reader->bytes_done();
+      job.progress(static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(bytes, 1)));
+    }
+  }
+  run.scans = run.scan_seconds.size();
+  run.interrupted = interrupted != 0;
+  collect_skipped(run, *logs);
+  run.phase.match = mapping - run.mapper.times().fit_s;
+  run.phase.read = thread_cpu_seconds() - start - mapping;
+  run.mapper.finish();
+  run.phase.fit = run.mapper.times().fit_s;
+  if (run.scans == 0) return fail("no scan was mapped: the logs hold none in the range that was asked for");
+  return run;
+}
+
+}  // namespace helicoid
