@@ -1,0 +1,89 @@
+#include "helicoid/simulation/laser_simulator.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace helicoid {
+
+namespace {
+
+constexpr double kNoReturn = 81.83;
+constexpr double kReach = 80;
+
+double meet_disc(const Vector2d& origin, const Vector2d& direction, const Disc& disc) {
+  const Vector2d offset = disc.centre - origin;
+  const double along = offset.dot(direction);
+  const double square = disc.radius * disc.radius - (offset.squaredNorm() - along * along);
+  if (square < 0 || along - std::sqrt(square) < 0) return std::numeric_limits<double>::infinity();
+  return along - std::sqrt(square);
+}
+
+/// The surface that a thin ray meets: how far, and how flat it is seen (sine of the grazing angle).
+struct Surface {
+  double distance = 0;
+  double sine = 1;
+};
+
+Surface look(const RayCaster& walls, std::span<const Disc> discs, const Vector2d& origin, double bearing) {
+  const Vector2d direction(std::cos(bearing), std::sin(bearing));
+  const RayCaster::Hit hit = walls.cast(origin, direction, kReach);
+  Surface surface{hit.distance, 1};
+  if (hit.segment >= 0) {
+    const Segment& s = walls.segments()[static_cast<std::size_t>(hit.segment)];
+    const Vector2d along = (s.to - s.from).normalized();
+    surface.sine = std::abs(direction.x() * along.y() - direction.y() * along.x());
+  }
+  for (const Disc& disc : discs) {
+    const double distance = meet_disc(origin, direction, disc);
+    if (distance < surface.distance) surface = {distance, 1};
+  }
+  return surface;
+}
+
+}  // namespace
+
+LaserModel simulated_lms200() {
+  LaserModel laser;
+  laser.name = "SICK LMS200";
+  laser.beams = 180;
+  laser.first_bearing = -0.5 * std::numbers::pi;
+  laser.bearing_step = std::numbers::pi / 180;
+  laser.max_range = 0.999 * kNoReturn;
+  return laser;
+}
+
+std::vector<float> simulate_ranges(const RayCaster& walls, std::span<const Disc> discs, const LaserModel& laser,
+                                   const Pose2& T_world_laser, const LaserNoise& noise, const LaserBias& bias,
+                                   Random& random) {
+  std::vector<float> ranges;
+  ranges.reserve(static_cast<std::size_t>(laser.beams));
+  const Vector2d origin = T_world_laser.translation();
+  double previous = 0;
+  for (int beam = 0; beam < laser.beams; ++beam) {
+    const double bearing = T_world_laser.yaw + (1 + bias.bearing_scale) * laser.bearing(beam);
+    const Surface surface = look(walls, discs, origin, bearing);
+    double range = surface.distance;
+    // A beam has a width: where the surface jumps, its two edges may see different things and the range is a mixture.
+    if (noise.mixed > 0 && std::abs(range - previous) > 0.1) {
+      const double left = look(walls, discs, origin, bearing + 0.5 * noise.beam_divergence).distance;
+      const double right = look(walls, discs, origin, bearing - 0.5 * noise.beam_divergence).distance;
+      if (std::abs(left - right) > 0.1 && left < kReach && right < kReach && random.chance(noise.mixed)) {
+        range = left + random.uniform() * (right - left);
+      }
+    }
+    previous = surface.distance;
+    const bool swallowed = (noise.missing > 0 && random.chance(noise.missing)) ||
+                           (surface.sine < std::sin(noise.grazing_angle) && random.chance(0.5));
+    if (!(range < kReach) || swallowed) {
+      ranges.push_back(static_cast<float>(kNoReturn));
+      continue;
+    }
+    range += bias.range;
+    if (noise.range_sigma > 0) range += noise.range_sigma * random.normal();
+    if (noise.quantum > 0) range = noise.quantum * std::round(range / noise.quantum);
+    ranges.push_back(static_cast<float>(std::max(range, 0.01)));
+  }
+  return ranges;
+}
+
+}  // namespace helicoid

@@ -1,0 +1,160 @@
+#include "helicoid/simulation/simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace helicoid {
+
+namespace {
+
+constexpr double kTick = 0.05;         // seconds
+constexpr double kFirstStamp = 1000;   // seconds
+constexpr double kRobotRadius = 0.22;  // of what others' lasers see, metres
+constexpr double kPersonRadius = 0.18;
+constexpr double kPersonSpeed = 0.9;  // metres / second
+
+}  // namespace
+
+std::string simulated_robot_name(std::size_t robot) { return fmt::format("robot{}", robot + 1); }
+
+Result<Simulator> Simulator::make(const World& world, const SimulationOptions& options) {
+  if (world.routes.empty()) {
+    return fail("{}: has no route to drive; add a polyline or polygon of class \"route\"", world.name);
+  }
+  if (options.robots < 1) return fail("a simulation needs at least one robot");
+  return Simulator(world, options);
+}
+
+Simulator::Simulator(const World& world, const SimulationOptions& options)
+    : options_(options), walls_(world.walls), laser_(simulated_lms200()), random_(options.seed) {
+  low_ = high_ = world.walls.front().from;
+  for (const Segment& s : world.walls) {
+    low_ = low_.cwiseMin(s.from).cwiseMin(s.to);
+    high_ = high_.cwiseMax(s.from).cwiseMax(s.to);
+  }
+  for (int i = 0; i < options_.robots; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const Route& route = world.routes[index % world.routes.size()];
+    const bool backward = options_.alternate && i % 2 == 1;
+    Robot robot{RouteDriver(route, static_cast<double>(i) / options_.robots, backward, options_.limits),
+                random_.split(), {}, 1, 1, 0, {}, false};
+    robot.laser_bias = {options_.laser_noise.range_bias_sigma * robot.random.normal(),
+                        options_.laser_noise.bearing_scale_sigma * robot.random.normal()};
+    robot.distance_scale = 1 + options_.odometry_noise.distance_scale_sigma * robot.random.normal();
+    robot.turn_scale = 1 + options_.odometry_noise.turn_scale_sigma * robot.random.normal();
+    robot.drift = options_.odometry_noise.drift_bias_sigma * robot.random.normal();
+    robots_.push_back(std::move(robot));
+  }
+  for (int i = 0; i < options_.people; ++i) {
+    const auto somewhere = [&] { return Vector2d(random_.uniform(low_.x(), high_.x()), random_.uniform(low_.y(), high_.y())); };
+    const Vector2d at = somewhere();
+    people_.push_back({at, somewhere()});
+  }
+  last_sighting_.assign(robots_.size() * robots_.size(), -1e9);
+}
+
+std::optional<SimulatedEvent> Simulator::next() {
+  while (events_.empty()) {
+    if (std::all_of(robots_.begin(), robots_.end(), [](const Robot& r) { return r.done; })) return std::nullopt;
+    tick();
+  }
+  SimulatedEvent event = std::move(events_.front());
+  events_.pop();
+  return event;
+}
+
+void Simulator::tick() {
+  if (!people_.empty()) move_people();
+  const long scan_ticks = std::max(1L, std::lround(options_.scan_period / kTick));
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (robots_[i].done) continue;
+    if (ticks_ > 0) move_robot(i);
+    if (robots_[i].driver.laps() >= options_.laps) {
+      robots_[i].done = true;
+      continue;
+    }
+    if (ticks_ % scan_ticks == 0) scan(i);
+    if (options_.sightings && ticks_ % scan_ticks == 0) sight(i);
+  }
+  ++ticks_;
+}
+
+void Simulator::move_people() {
+  // People go straight through open space and choose anew at a wall or at their goal.
+  for (Person& person : people_) {
+    const Vector2d way = person.target - person.at;
+    const double step = kPersonSpeed * kTick;
+    const bool arrived = way.norm() < step;
+    const bool blocked = !arrived && walls_.cast(person.at, way.normalized(), step + kPersonRadius).segment >= 0;
+    if (arrived || blocked) {
+      person.target = {random_.uniform(low_.x(), high_.x()), random_.uniform(low_.y(), high_.y())};
+    } else {
+      person.at += step * way.normalized();
+    }
+  }
+}
+
+void Simulator::move_robot(std::size_t index) {
+  Robot& robot = robots_[index];
+  const Pose2 before = robot.driver.T_world_robot();
+  robot.driver.step(kTick);
+  const Pose2 truth = before.inverse() * robot.driver.T_world_robot();
+  const OdometryNoise& noise = options_.odometry_noise;
+  const double distance = truth.distance();
+  const double turn = std::abs(truth.yaw);
+  Pose2 measured;
+  measured.x = robot.distance_scale * truth.x + noise.distance_sigma * std::sqrt(distance) * robot.random.normal();
+  measured.y = truth.y;
+  measured.yaw = robot.turn_scale * truth.yaw + robot.drift * distance +
+                 noise.turn_sigma * std::sqrt(turn) * robot.random.normal() +
+                 noise.drift_sigma * std::sqrt(distance) * robot.random.normal();
+  if (noise.slip_per_metre > 0 && robot.random.chance(noise.slip_per_metre * distance)) {
+    measured.yaw += noise.slip_turn * robot.random.normal();
+  }
+  if (distance == 0 && turn == 0) measured = {};
+  robot.T_odom_robot = robot.T_odom_robot * measured;
+  const double stamp = kFirstStamp + kTick * static_cast<double>(ticks_);
+  events_.push({{make_id<RobotId>(index), stamp, Odometry{robot.T_odom_robot}}, robot.driver.T_world_robot(),
+                robot.driver.laps()});
+}
+
+void Simulator::scan(std::size_t index) {
+  Robot& robot = robots_[index];
+  std::vector<Disc> discs;
+  for (const Person& person : people_) {
+    if ((person.at - robot.driver.T_world_robot().translation()).norm() > 0.5) discs.push_back({person.at, kPersonRadius});
+  }
+  for (std::size_t j = 0; j < robots_.size(); ++j) {
+    if (j != index) discs.push_back({robots_[j].driver.T_world_robot().translation(), kRobotRadius});
+  }
+  Scan scan;
+  scan.ranges = simulate_ranges(walls_, discs, laser_, robot.driver.T_world_robot(), options_.laser_noise,
+                                robot.laser_bias, robot.random);
+  scan.T_odom_robot = robot.T_odom_robot;
+  // A millisecond after the odometry, and robot by robot: stamps name one scan each.
+  const double stamp = kFirstStamp + kTick * static_cast<double>(ticks_) + 1e-3 * static_cast<double>(index + 1);
+  events_.push({{make_id<RobotId>(index), stamp, std::move(scan)}, robot.driver.T_world_robot(), robot.driver.laps()});
+}
+
+void Simulator::sight(std::size_t index) {
+  Robot& robot = robots_[index];
+  const Pose2& T_world_robot = robot.driver.T_world_robot();
+  const double now = kTick * static_cast<double>(ticks_);
+  for (std::size_t j = 0; j < robots_.size(); ++j) {
+    double& last = last_sighting_[index * robots_.size() + j];
+    if (j == index || now - last < options_.sighting_period) continue;
+    const Pose2 T_robot_other = T_world_robot.inverse() * robots_[j].driver.T_world_robot();
+    const double range = T_robot_other.distance();
+    const double bearing = std::atan2(T_robot_other.y, T_robot_other.x);
+    if (range > options_.sighting_range || range < 0.3 || std::abs(bearing) > 0.5 * std::numbers::pi) continue;
+    const Vector2d direction = (T_world_robot.rotation() * T_robot_other.translation()).normalized();
+    if (walls_.cast(T_world_robot.translation(), direction, range).segment >= 0) continue;
+    last = now;
+    Sighting s{simulated_robot_name(j), range + 0.03 * robot.random.normal(), bearing + 0.01 * robot.random.normal(),
+               wrap_angle(T_robot_other.yaw + 0.03 * robot.random.normal()), 0.03, 0.01, 0.03};
+    const double stamp = kFirstStamp + now + 1e-3 * static_cast<double>(index + 1) + 5e-4;
+    events_.push({{make_id<RobotId>(index), stamp, std::move(s)}, T_world_robot, robot.driver.laps()});
+  }
+}
+
+}  // namespace helicoid

@@ -1,0 +1,79 @@
+// Robots on given routes through a world: events in time order, with the truth beside them. Streaming, seeded.
+#pragma once
+
+#include <optional>
+#include <queue>
+#include <string>
+#include <vector>
+
+#include "helicoid/simulation/drive.hpp"
+#include "helicoid/simulation/laser_simulator.hpp"
+
+namespace helicoid {
+
+struct SimulationOptions {
+  int robots = 1;
+  std::uint64_t seed = 1;
+  int laps = 1;
+  bool alternate = false;      ///< every second robot drives a closed route backward
+  double scan_period = 0.2;    ///< seconds
+  LaserNoise laser_noise;
+  OdometryNoise odometry_noise;
+  int people = 0;              ///< that walk about between random places
+  DriveLimits limits;
+  bool sightings = false;      ///< robots report one another by their fiducials
+  double sighting_range = 8;   ///< metres
+  double sighting_period = 1;  ///< at most one of a pair in this time, seconds
+};
+
+struct SimulatedEvent {
+  Event event;
+  Pose2 T_world_robot;  ///< the truth
+  int lap = 0;
+};
+
+[[nodiscard]] std::string simulated_robot_name(std::size_t robot);
+
+class Simulator {
+ public:
+  /// Errors: a world without a route.
+  [[nodiscard]] static Result<Simulator> make(const World& world, const SimulationOptions& options);
+
+  /// The next event; empty when every robot has driven its laps.
+  [[nodiscard]] std::optional<SimulatedEvent> next();
+  [[nodiscard]] const LaserModel& laser() const { return laser_; }
+
+ private:
+  struct Robot;
+  struct Person {
+    Vector2d at, target;
+  };
+  Simulator(const World& world, const SimulationOptions& options);
+  void tick();
+  void move_people();
+  void move_robot(std::size_t index);
+  void scan(std::size_t index);
+  void sight(std::size_t index);
+
+  SimulationOptions options_;
+  RayCaster walls_;
+  Vector2d low_ = Vector2d::Zero(), high_ = Vector2d::Zero();
+  LaserModel laser_;
+  Random random_;
+  std::vector<Robot> robots_;
+  std::vector<Person> people_;
+  std::vector<double> last_sighting_;  ///< by pair
+  std::queue<SimulatedEvent> events_;
+  long ticks_ = 0;
+};
+
+struct Simulator::Robot {
+  RouteDriver driver;
+  Random random;
+  LaserBias laser_bias;
+  double distance_scale = 1, turn_scale = 1, drift = 0;
+  Pose2 T_odom_robot;
+  bool done = false;
+};
+
+}  // namespace helicoid

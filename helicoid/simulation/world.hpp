@@ -1,0 +1,42 @@
+// A building: walls that stop rays and robots, places to start from, routes to drive.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "helicoid/base/result.hpp"
+#include "helicoid/geometry/ray_casting.hpp"
+
+namespace helicoid {
+
+/// A line to drive along; a closed one is a circuit, an open one is driven out and back.
+struct Route {
+  std::vector<Vector2d> points;  ///< metres
+  bool closed = false;
+};
+
+struct World {
+  std::string name;
+  std::vector<Segment> walls;
+  std::vector<Pose2> starts;
+  std::vector<Segment> doors;  ///< openings to the outside; they stop nothing
+  std::vector<Route> routes;
+};
+
+/// A shipped world's name (shipped_worlds()), an SVG file, or an occupancy image's MAP.yaml.
+[[nodiscard]] Result<World> load_world(const std::string& name_or_path);
+[[nodiscard]] std::vector<std::string> shipped_worlds();
+
+/// An SVG whose user units are metres; elements of class wall, start, door and route (line, polyline, polygon, rect,
+/// path, circle; group transforms). The file's y points down; the world's points up: y = -y_svg. A start is a circle;
+/// its heading is the attribute data-yaw, in degrees anticlockwise in the world.
+[[nodiscard]] Result<World> parse_svg_world(const std::string& svg, const std::string& name);
+
+/// ROS map_server's MAP.yaml with a PGM or PNG image; what is not free is solid.
+[[nodiscard]] Result<World> read_image_world(const std::string& yaml_path);
+
+/// The world as YAML, for whoever reads a simulation's folder.
+[[nodiscard]] std::string to_yaml(const World& world);
+
+}  // namespace helicoid
