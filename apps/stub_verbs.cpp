@@ -1,3 +1,3 @@
 #include <CLI/CLI.hpp>
 #include "apps/verb.hpp"
-namespace helicoid { void add_simulate_verb(CLI::App&, int&){} void add_plot_verb(CLI::App&, int&){} void add_bench_verb(CLI::App&, int&){} void add_experiment_verb(CLI::App&, int&){} }
+namespace helicoid { void add_plot_verb(CLI::App&, int&){} void add_bench_verb(CLI::App&, int&){} }

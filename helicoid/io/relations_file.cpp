@@ -76,8 +76,10 @@ Result<RelationsFile> read_relations(const std::string& path) {
   if (!text) return tl::unexpected(text.error());
   RelationsFile file = parse_relations(text->text, text->name);
   if (file.relations.empty()) {
-    return fail("{}: holds no relation; lines are `t1 t2 x y z roll pitch yaw` or "
-                "`robot_a t_a robot_b t_b x y yaw`", path);
+    return fail(
+        "{}: holds no relation; lines are `t1 t2 x y z roll pitch yaw` or "
+        "`robot_a t_a robot_b t_b x y yaw`",
+        path);
   }
   return file;
 }
@@ -87,6 +89,15 @@ std::string to_relations_text(std::span<const TrueRelation> relations) {
   for (const TrueRelation& r : relations) {
     fmt::format_to(std::back_inserter(text), "{} {:.6f} {} {:.6f} {:.6f} {:.6f} {:.6f}\n", r.robot_a, r.stamp_a,
                    r.robot_b, r.stamp_b, r.T_a_b.x, r.T_a_b.y, r.T_a_b.yaw);
+  }
+  return text;
+}
+
+std::string to_single_robot_relations_text(std::span<const TrueRelation> relations) {
+  std::string text;
+  for (const TrueRelation& r : relations) {
+    fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f} {:.6f} {:.6f} 0 0 0 {:.6f}\n", r.stamp_a, r.stamp_b,
+                   r.T_a_b.x, r.T_a_b.y, r.T_a_b.yaw);
   }
   return text;
 }

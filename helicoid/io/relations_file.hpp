@@ -29,5 +29,7 @@ struct RelationsFile {
 [[nodiscard]] RelationsFile parse_relations(const std::string& text, const std::string& name);
 /// The format between robots, with a heading comment.
 [[nodiscard]] std::string to_relations_text(std::span<const TrueRelation> relations);
+/// The format of one robot, which names none: `t1 t2 x y z roll pitch yaw`.
+[[nodiscard]] std::string to_single_robot_relations_text(std::span<const TrueRelation> relations);
 
 }  // namespace helicoid

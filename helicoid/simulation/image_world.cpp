@@ -60,7 +60,8 @@ Result<GreyImage> read_png(const std::string& bytes, const std::string& path) {
   }
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
   const png_color white{255, 255, 255};
-  if (png_image_finish_read(&png, &white, image.pixels.data(), 0, nullptr) == 0) return fail("{}: {}", path, png.message);
+  if (png_image_finish_read(&png, &white, image.pixels.data(), 0, nullptr) == 0)
+    return fail("{}: {}", path, png.message);
   return image;
 }
 

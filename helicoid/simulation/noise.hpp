@@ -28,4 +28,16 @@ struct OdometryNoise {
   [[nodiscard]] static OdometryNoise none() { return {0, 0, 0, 0, 0, 0, 0, 0}; }
 };
 
+/// A fiducial that other robots' cameras see.
+struct SightingNoise {
+  double range_sigma = 0.03;        ///< metres
+  double bearing_sigma = 0.01;      ///< radians
+  double orientation_sigma = 0.03;  ///< radians
+  [[nodiscard]] static SightingNoise none() { return {0, 0, 0}; }
+};
+
+/// All standard deviations and probabilities times `factor`; rounding and the beam's width stay as they are.
+[[nodiscard]] LaserNoise scaled(LaserNoise noise, double factor);
+[[nodiscard]] OdometryNoise scaled(OdometryNoise noise, double factor);
+
 }  // namespace helicoid

@@ -11,11 +11,15 @@ constexpr double kTick = 0.05;         // seconds
 constexpr double kFirstStamp = 1000;   // seconds
 constexpr double kRobotRadius = 0.22;  // of what others' lasers see, metres
 constexpr double kPersonRadius = 0.18;
-constexpr double kPersonSpeed = 0.9;  // metres / second
+constexpr double kPersonSpeed = 0.9;      // metres / second
+constexpr double kFarthestWalk = 8;       // metres
+constexpr double kNearestSighting = 0.3;  // nearer, the fiducial does not fit into the picture; metres
 
 }  // namespace
 
-std::string simulated_robot_name(std::size_t robot) { return fmt::format("robot{}", robot + 1); }
+std::string simulated_robot_name(std::size_t robot) {
+  return fmt::format("robot{}", robot + 1);
+}
 
 Result<Simulator> Simulator::make(const World& world, const SimulationOptions& options) {
   if (world.routes.empty()) {
@@ -26,18 +30,19 @@ Result<Simulator> Simulator::make(const World& world, const SimulationOptions& o
 }
 
 Simulator::Simulator(const World& world, const SimulationOptions& options)
-    : options_(options), walls_(world.walls), laser_(simulated_lms200()), random_(options.seed) {
-  low_ = high_ = world.walls.front().from;
-  for (const Segment& s : world.walls) {
-    low_ = low_.cwiseMin(s.from).cwiseMin(s.to);
-    high_ = high_.cwiseMax(s.from).cwiseMax(s.to);
-  }
+    : options_(options), walls_(world.walls), routes_(world.routes), laser_(simulated_lms200()), random_(options.seed) {
   for (int i = 0; i < options_.robots; ++i) {
     const auto index = static_cast<std::size_t>(i);
     const Route& route = world.routes[index % world.routes.size()];
     const bool backward = options_.alternate && i % 2 == 1;
     Robot robot{RouteDriver(route, static_cast<double>(i) / options_.robots, backward, options_.limits),
-                random_.split(), {}, 1, 1, 0, {}, false};
+                random_.split(),
+                {},
+                1,
+                1,
+                0,
+                {},
+                false};
     robot.laser_bias = {options_.laser_noise.range_bias_sigma * robot.random.normal(),
                         options_.laser_noise.bearing_scale_sigma * robot.random.normal()};
     robot.distance_scale = 1 + options_.odometry_noise.distance_scale_sigma * robot.random.normal();
@@ -46,9 +51,8 @@ Simulator::Simulator(const World& world, const SimulationOptions& options)
     robots_.push_back(std::move(robot));
   }
   for (int i = 0; i < options_.people; ++i) {
-    const auto somewhere = [&] { return Vector2d(random_.uniform(low_.x(), high_.x()), random_.uniform(low_.y(), high_.y())); };
-    const Vector2d at = somewhere();
-    people_.push_back({at, somewhere()});
+    const Vector2d at = open_place();
+    people_.push_back({at, open_place()});
   }
   last_sighting_.assign(robots_.size() * robots_.size(), -1e9);
 }
@@ -61,6 +65,12 @@ std::optional<SimulatedEvent> Simulator::next() {
   SimulatedEvent event = std::move(events_.front());
   events_.pop();
   return event;
+}
+
+double Simulator::progress() const {
+  double laps = 0;
+  for (const Robot& robot : robots_) laps += std::min(robot.driver.laps_driven(), static_cast<double>(options_.laps));
+  return laps / (static_cast<double>(robots_.size()) * options_.laps);
 }
 
 void Simulator::tick() {
@@ -79,6 +89,44 @@ void Simulator::tick() {
   ++ticks_;
 }
 
+/// A place that can be seen from a place on a route: inside the building, outside of furniture.
+Vector2d Simulator::open_place() {
+  const Route& route = routes_[random_.below(routes_.size())];
+  const std::size_t i = random_.below(route.points.size());
+  const Vector2d& a = route.points[i];
+  const Vector2d& b = route.points[(i + 1) % route.points.size()];
+  const Vector2d from = i + 1 < route.points.size() || route.closed ? a + random_.uniform() * (b - a) : a;
+  const double angle = random_.uniform(-std::numbers::pi, std::numbers::pi);
+  const Vector2d direction(std::cos(angle), std::sin(angle));
+  const double reach = std::min(walls_.cast(from, direction, kFarthestWalk).distance, kFarthestWalk);
+  return from + random_.uniform() * std::max(0.0, reach - 2 * kPersonRadius) * direction;
+}
+
+/// Everything round but the robot itself.
+std::vector<Disc> Simulator::discs_around(std::size_t index) const {
+  std::vector<Disc> discs;
+  const Vector2d here = robots_[index].driver.T_world_robot().translation();
+  for (const Person& person : people_) {
+    // People step aside.
+    if ((person.at - here).norm() > kPersonRadius + kRobotRadius) discs.push_back({person.at, kPersonRadius});
+  }
+  for (std::size_t j = 0; j < robots_.size(); ++j) {
+    if (j != index) discs.push_back({robots_[j].driver.T_world_robot().translation(), kRobotRadius});
+  }
+  return discs;
+}
+
+bool Simulator::hidden(const Vector2d& from, const Vector2d& to, std::span<const Disc> discs) const {
+  const double range = (to - from).norm();
+  const Vector2d direction = (to - from) / range;
+  if (walls_.cast(from, direction, range).segment >= 0) return true;
+  return std::any_of(discs.begin(), discs.end(), [&](const Disc& d) {
+    const double along = (d.centre - from).dot(direction);
+    const bool is_target = (d.centre - to).norm() < 1e-9;
+    return !is_target && along > 0 && along < range && (d.centre - from - along * direction).norm() < d.radius;
+  });
+}
+
 void Simulator::move_people() {
   // People go straight through open space and choose anew at a wall or at their goal.
   for (Person& person : people_) {
@@ -87,7 +135,7 @@ void Simulator::move_people() {
     const bool arrived = way.norm() < step;
     const bool blocked = !arrived && walls_.cast(person.at, way.normalized(), step + kPersonRadius).segment >= 0;
     if (arrived || blocked) {
-      person.target = {random_.uniform(low_.x(), high_.x()), random_.uniform(low_.y(), high_.y())};
+      person.target = open_place();
     } else {
       person.at += step * way.normalized();
     }
@@ -114,21 +162,15 @@ void Simulator::move_robot(std::size_t index) {
   if (distance == 0 && turn == 0) measured = {};
   robot.T_odom_robot = robot.T_odom_robot * measured;
   const double stamp = kFirstStamp + kTick * static_cast<double>(ticks_);
-  events_.push({{make_id<RobotId>(index), stamp, Odometry{robot.T_odom_robot}}, robot.driver.T_world_robot(),
+  events_.push({{make_id<RobotId>(index), stamp, Odometry{robot.T_odom_robot}},
+                robot.driver.T_world_robot(),
                 robot.driver.laps()});
 }
 
 void Simulator::scan(std::size_t index) {
   Robot& robot = robots_[index];
-  std::vector<Disc> discs;
-  for (const Person& person : people_) {
-    if ((person.at - robot.driver.T_world_robot().translation()).norm() > 0.5) discs.push_back({person.at, kPersonRadius});
-  }
-  for (std::size_t j = 0; j < robots_.size(); ++j) {
-    if (j != index) discs.push_back({robots_[j].driver.T_world_robot().translation(), kRobotRadius});
-  }
   Scan scan;
-  scan.ranges = simulate_ranges(walls_, discs, laser_, robot.driver.T_world_robot(), options_.laser_noise,
+  scan.ranges = simulate_ranges(walls_, discs_around(index), laser_, robot.driver.T_world_robot(), options_.laser_noise,
                                 robot.laser_bias, robot.random);
   scan.T_odom_robot = robot.T_odom_robot;
   // A millisecond after the odometry, and robot by robot: stamps name one scan each.
@@ -140,18 +182,26 @@ void Simulator::sight(std::size_t index) {
   Robot& robot = robots_[index];
   const Pose2& T_world_robot = robot.driver.T_world_robot();
   const double now = kTick * static_cast<double>(ticks_);
+  const std::vector<Disc> discs = discs_around(index);
+  const SightingNoise& noise = options_.sighting_noise;
   for (std::size_t j = 0; j < robots_.size(); ++j) {
     double& last = last_sighting_[index * robots_.size() + j];
     if (j == index || now - last < options_.sighting_period) continue;
-    const Pose2 T_robot_other = T_world_robot.inverse() * robots_[j].driver.T_world_robot();
+    const Pose2& T_world_other = robots_[j].driver.T_world_robot();
+    const Pose2 T_robot_other = T_world_robot.inverse() * T_world_other;
     const double range = T_robot_other.distance();
     const double bearing = std::atan2(T_robot_other.y, T_robot_other.x);
-    if (range > options_.sighting_range || range < 0.3 || std::abs(bearing) > 0.5 * std::numbers::pi) continue;
-    const Vector2d direction = (T_world_robot.rotation() * T_robot_other.translation()).normalized();
-    if (walls_.cast(T_world_robot.translation(), direction, range).segment >= 0) continue;
+    if (range > options_.sighting_range || range < kNearestSighting) continue;
+    if (std::abs(bearing) > 0.5 * options_.sighting_view) continue;
+    if (hidden(T_world_robot.translation(), T_world_other.translation(), discs)) continue;
     last = now;
-    Sighting s{simulated_robot_name(j), range + 0.03 * robot.random.normal(), bearing + 0.01 * robot.random.normal(),
-               wrap_angle(T_robot_other.yaw + 0.03 * robot.random.normal()), 0.03, 0.01, 0.03};
+    Sighting s{simulated_robot_name(j),
+               range + noise.range_sigma * robot.random.normal(),
+               wrap_angle(bearing + noise.bearing_sigma * robot.random.normal()),
+               wrap_angle(T_robot_other.yaw + noise.orientation_sigma * robot.random.normal()),
+               noise.range_sigma,
+               noise.bearing_sigma,
+               noise.orientation_sigma};
     const double stamp = kFirstStamp + now + 1e-3 * static_cast<double>(index + 1) + 5e-4;
     events_.push({{make_id<RobotId>(index), stamp, std::move(s)}, T_world_robot, robot.driver.laps()});
   }

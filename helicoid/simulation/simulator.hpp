@@ -15,15 +15,17 @@ struct SimulationOptions {
   int robots = 1;
   std::uint64_t seed = 1;
   int laps = 1;
-  bool alternate = false;      ///< every second robot drives a closed route backward
-  double scan_period = 0.2;    ///< seconds
+  bool alternate = false;    ///< every second robot drives a closed route backward
+  double scan_period = 0.2;  ///< seconds
   LaserNoise laser_noise;
   OdometryNoise odometry_noise;
-  int people = 0;              ///< that walk about between random places
+  int people = 0;  ///< that walk about between random places beside the routes
   DriveLimits limits;
-  bool sightings = false;      ///< robots report one another by their fiducials
-  double sighting_range = 8;   ///< metres
-  double sighting_period = 1;  ///< at most one of a pair in this time, seconds
+  bool sightings = false;                   ///< robots report one another by their fiducials
+  double sighting_range = 8;                ///< metres
+  double sighting_view = std::numbers::pi;  ///< the camera's whole field of view, ahead; radians
+  double sighting_period = 1;               ///< at most one of a pair in this time, seconds
+  SightingNoise sighting_noise;
 };
 
 struct SimulatedEvent {
@@ -42,6 +44,8 @@ class Simulator {
   /// The next event; empty when every robot has driven its laps.
   [[nodiscard]] std::optional<SimulatedEvent> next();
   [[nodiscard]] const LaserModel& laser() const { return laser_; }
+  /// The share of all laps that is driven, 0..1.
+  [[nodiscard]] double progress() const;
 
  private:
   struct Robot;
@@ -50,6 +54,9 @@ class Simulator {
   };
   Simulator(const World& world, const SimulationOptions& options);
   void tick();
+  [[nodiscard]] Vector2d open_place();
+  [[nodiscard]] std::vector<Disc> discs_around(std::size_t index) const;
+  [[nodiscard]] bool hidden(const Vector2d& from, const Vector2d& to, std::span<const Disc> discs) const;
   void move_people();
   void move_robot(std::size_t index);
   void scan(std::size_t index);
@@ -57,7 +64,7 @@ class Simulator {
 
   SimulationOptions options_;
   RayCaster walls_;
-  Vector2d low_ = Vector2d::Zero(), high_ = Vector2d::Zero();
+  std::vector<Route> routes_;
   LaserModel laser_;
   Random random_;
   std::vector<Robot> robots_;

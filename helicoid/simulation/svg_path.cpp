@@ -8,7 +8,9 @@ namespace helicoid {
 
 namespace {
 
-bool is_separator(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_separator(char c) {
+  return c == ' ' || c == ',' || c == '\t' || c == '\n' || c == '\r';
+}
 
 /// The next number of a text, which is cut off in front; false if there is none.
 bool take_number(std::string_view& text, double& value) {
@@ -44,9 +46,13 @@ SvgTransform one_transform(std::string_view name, const std::vector<double>& v) 
 /// How many numbers a command takes, and which of them are its end point's.
 std::size_t arguments(char command) {
   switch (std::tolower(command)) {
-    case 'm': case 'l': case 't': return 2;
-    case 'h': case 'v': return 1;
-    case 'q': case 's': return 4;
+    case 'm':
+    case 'l':
+    case 't': return 2;
+    case 'h':
+    case 'v': return 1;
+    case 'q':
+    case 's': return 4;
     case 'c': return 6;
     case 'a': return 7;
     default: return 0;

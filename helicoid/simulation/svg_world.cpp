@@ -32,7 +32,8 @@ std::vector<SvgLine> lines_of(const pugi::xml_node& element) {
     SvgLine line{{}, true};
     for (int i = 0; i < kCircleCorners; ++i) {
       const double angle = 2 * std::numbers::pi * i / kCircleCorners;
-      line.points.emplace_back(number("cx") + number("r") * std::cos(angle), number("cy") + number("r") * std::sin(angle));
+      line.points.emplace_back(number("cx") + number("r") * std::cos(angle),
+                               number("cy") + number("r") * std::sin(angle));
     }
     return {line};
   }

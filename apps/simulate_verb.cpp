@@ -1,0 +1,230 @@
+// helicoid simulate: logs of robots in a world that is known, with the truth beside them.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/output_folder.hpp"
+#include "apps/progress_bar.hpp"
+#include "apps/verb.hpp"
+#include "apps/world_picture.hpp"
+#include "helicoid/base/whole_file.hpp"
+#include "helicoid/io/carmen_writer.hpp"
+#include "helicoid/io/gzip_file.hpp"
+#include "helicoid/io/relations_file.hpp"
+#include "helicoid/io/trajectory.hpp"
+#include "helicoid/simulation/simulator.hpp"
+#include "helicoid/simulation/true_relations.hpp"
+
+namespace helicoid {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct SimulateArguments {
+  std::string world;
+  std::string out;
+  SimulationOptions simulation;
+  double rate = 5;  ///< scans a second
+  double laser_noise = 1;
+  double odometry_noise = 1;
+  bool no_sightings = false;
+  bool force = false;
+  bool json = false;
+};
+
+/// What the robots reported and where they truly were.
+struct Recording {
+  std::vector<std::string> logs;
+  std::vector<TrueTrack> tracks;
+  std::size_t scans = 0, odometry = 0, sightings = 0;
+  double seconds = 0;
+  double metres = 0;
+};
+
+void note(Recording& recording, const SimulatedEvent& simulated) {
+  const std::size_t robot = simulated.event.robot.index();
+  append_carmen(recording.logs[robot], simulated.event, "simulation");
+  recording.seconds = std::max(recording.seconds, simulated.event.stamp);
+  if (std::holds_alternative<Sighting>(simulated.event.body)) ++recording.sightings;
+  if (std::holds_alternative<Odometry>(simulated.event.body)) ++recording.odometry;
+  if (!std::holds_alternative<Scan>(simulated.event.body)) return;
+  ++recording.scans;
+  TrueTrack& track = recording.tracks[robot];
+  if (!track.stamps.empty()) {
+    recording.metres += (track.T_world_robot.back().inverse() * simulated.T_world_robot).distance();
+  }
+  track.stamps.push_back(simulated.event.stamp);
+  track.T_world_robot.push_back(simulated.T_world_robot);
+}
+
+Recording record(Simulator& simulator, const SimulateArguments& a) {
+  const auto robots = static_cast<std::size_t>(a.simulation.robots);
+  Recording recording;
+  recording.logs.assign(robots, "# a log of `helicoid simulate`\n");
+  for (std::size_t i = 0; i < robots; ++i) recording.tracks.push_back({simulated_robot_name(i), {}, {}});
+  ProgressBar bar;
+  double first = 0;
+  while (const std::optional<SimulatedEvent> event = simulator.next()) {
+    if (recording.scans + recording.odometry == 0) first = event->event.stamp;
+    note(recording, *event);
+    if (recording.scans % 64 == 0) bar.show(simulator.progress(), "simulating");
+  }
+  recording.seconds -= first;
+  return recording;
+}
+
+std::vector<TrueRelation> true_relations(const Recording& recording, std::uint64_t seed) {
+  std::vector<TrueRelation> relations;
+  for (const ScanPair& p : choose_true_relations(recording.tracks, seed)) {
+    const TrueTrack& a = recording.tracks[p.robot_a];
+    const TrueTrack& b = recording.tracks[p.robot_b];
+    relations.push_back({a.robot, a.stamps[p.scan_a], b.robot, b.stamps[p.scan_b],
+                         a.T_world_robot[p.scan_a].inverse() * b.T_world_robot[p.scan_b]});
+  }
+  return relations;
+}
+
+std::string true_trajectory(const TrueTrack& track) {
+  std::vector<StampedPose> poses;
+  for (std::size_t i = 0; i < track.stamps.size(); ++i) poses.push_back({track.stamps[i], track.T_world_robot[i]});
+  return to_tum(poses);
+}
+
+/// What was asked for and what came of it.
+Json to_json(const SimulateArguments& a, const Recording& recording, std::size_t relations) {
+  const SimulationOptions& s = a.simulation;
+  return {{"format", "helicoid-simulation"},
+          {"version", HELICOID_VERSION},
+          {"options",
+           {{"world", a.world},
+            {"robots", s.robots},
+            {"seed", s.seed},
+            {"laps", s.laps},
+            {"rate_hz", a.rate},
+            {"people", s.people},
+            {"alternate", s.alternate},
+            {"laser_noise", a.laser_noise},
+            {"odometry_noise", a.odometry_noise},
+            {"speed_m_s", s.limits.speed},
+            {"sightings", s.sightings},
+            {"sighting_range_m", s.sighting_range},
+            {"sighting_view_deg", degrees(s.sighting_view)}}},
+          {"scans", recording.scans},
+          {"odometry", recording.odometry},
+          {"sightings", recording.sightings},
+          {"seconds", std::round(1000 * recording.seconds) / 1000},
+          {"metres", std::round(100 * recording.metres) / 100},
+          {"relations", relations}};
+}
+
+Result<Json> write_recording(const World& world, const Recording& recording, const SimulateArguments& a) {
+  std::error_code error;
+  fs::create_directories(fs::path(a.out) / "truth", error);
+  const std::string base = a.out + "/";
+  for (std::size_t i = 0; i < recording.logs.size(); ++i) {
+    const std::string& robot = recording.tracks[i].robot;
+    if (auto done = write_gzip_file(base + robot + ".clf.gz", recording.logs[i]); !done)
+      return tl::unexpected(done.error());
+    const std::string truth = true_trajectory(recording.tracks[i]);
+    if (auto done = write_whole_file(base + "truth/" + robot + ".tum", truth); !done)
+      return tl::unexpected(done.error());
+  }
+  const std::vector<TrueRelation> relations = true_relations(recording, a.simulation.seed);
+  const Json summary = to_json(a, recording, relations.size());
+  const std::pair<const char*, std::string> files[] = {
+      {"truth.relations",
+       recording.logs.size() > 1 ? to_relations_text(relations) : to_single_robot_relations_text(relations)},
+      {"world.yaml", to_yaml(world)},
+      {"world.svg", draw_world(world, recording.tracks)},
+      {"simulation.json", summary.dump(1) + "\n"}};
+  for (const auto& [name, text] : files) {
+    if (auto done = write_whole_file(base + name, text); !done) return tl::unexpected(done.error());
+  }
+  return summary;
+}
+
+int run_verb(SimulateArguments a) {
+  Result<World> world = load_world(a.world);
+  if (!world) return report_failure(world.error().message);
+  a.simulation.scan_period = 1 / a.rate;
+  a.simulation.laser_noise = scaled(a.simulation.laser_noise, a.laser_noise);
+  a.simulation.odometry_noise = scaled(a.simulation.odometry_noise, a.odometry_noise);
+  a.simulation.sightings = a.simulation.robots > 1 && !a.no_sightings;
+  Result<Simulator> simulator = Simulator::make(*world, a.simulation);
+  if (!simulator) return report_failure(simulator.error().message);
+  if (auto ready = prepare_output_folder(a.out, "simulation.json", a.force); !ready) {
+    return report_failure(ready.error().message);
+  }
+  const Recording recording = record(*simulator, a);
+  const Result<Json> summary = write_recording(*world, recording, a);
+  if (!summary) return report_failure(summary.error().message);
+  if (a.json) {
+    fmt::print("{}\n", summary->dump(1));
+    return kDone;
+  }
+  fmt::print("world      {}: {} walls, {} routes\n", world->name, world->walls.size(), world->routes.size());
+  fmt::print("drive      {} robots, {:.0f} m, {:.0f} s\n", recording.logs.size(), recording.metres, recording.seconds);
+  fmt::print("events     {} scans, {} odometry, {} sightings\n", recording.scans, recording.odometry,
+             recording.sightings);
+  for (const TrueTrack& track : recording.tracks) fmt::print("log        {}/{}.clf.gz\n", a.out, track.robot);
+  fmt::print("truth      {0}/truth, {0}/truth.relations ({1})\npicture    {0}/world.svg\n", a.out,
+             (*summary)["relations"].get<std::size_t>());
+  return kDone;
+}
+
+void add_options(CLI::App& verb, SimulateArguments& a) {
+  SimulationOptions& s = a.simulation;
+  verb.add_option(
+          "WORLD", a.world,
+          fmt::format("a shipped world ({}), an SVG in metres (classes wall, start, door, route), or an occupancy "
+                      "image's MAP.yaml",
+                      fmt::join(shipped_worlds(), ", ")))
+      ->required();
+  verb.add_option("--out", a.out, "the folder to write into")->required();
+  verb.add_option("--robots", s.robots, "how many robots, spread over the routes")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  verb.add_option("--seed", s.seed, "the same seed gives the same bytes")->capture_default_str();
+  verb.add_option("--laps", s.laps, "how often each drives its route; out and back is one lap of an open route")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  verb.add_option("--rate", a.rate, "scans a second; the period is rounded to 0.05 s")
+      ->check(CLI::Range(0.1, 20.0))
+      ->capture_default_str();
+  verb.add_option("--people", s.people, "people who walk about")->check(CLI::Range(0, 1000))->capture_default_str();
+  verb.add_option("--laser-noise", a.laser_noise, "times what an LMS200 has; 0: exact ranges")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  verb.add_option("--odometry-noise", a.odometry_noise, "times what a good base has; 0: exact odometry")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  verb.add_option("--speed", s.limits.speed, "metres a second")->check(CLI::Range(0.05, 3.0))->capture_default_str();
+  verb.add_flag("--alternate", s.alternate, "every second robot drives a closed route the other way");
+  verb.add_flag("--no-sightings", a.no_sightings, "robots do not report one another (a single one never does)");
+  verb.add_option("--sighting-range", s.sighting_range, "how far a robot recognises another, metres")
+      ->check(CLI::Range(0.5, 80.0))
+      ->capture_default_str();
+  verb.add_flag("--force", a.force, "write into a folder that something else made");
+  verb.add_flag("--json", a.json, "print what was simulated as one JSON object");
+}
+
+}  // namespace
+
+void add_simulate_verb(CLI::App& program, int& exit_code) {
+  auto a = std::make_shared<SimulateArguments>();
+  CLI::App* verb = program.add_subcommand("simulate", "Drive robots through a known world: logs, and the truth");
+  add_options(*verb, *a);
+  verb->footer(
+      "Examples:\n  helicoid simulate office --out sim\n"
+      "  helicoid simulate loop --laps 10 --seed 7 --out laps\n"
+      "  helicoid simulate office --robots 3 --people 5 --out team\n"
+      "  helicoid simulate site/map.yaml --odometry-noise 2 --out again\n"
+      "Then: helicoid map sim/robot1.clf.gz --out site && helicoid eval site --relations sim/truth.relations");
+  verb->callback([a, &exit_code] { exit_code = run_verb(*a); });
+}
+
+}  // namespace helicoid
