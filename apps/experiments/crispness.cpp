@@ -1,0 +1,104 @@
+// Is any wall drawn twice on one sheet?
+#include "helicoid/charts/crispness.hpp"
+
+#include <filesystem>
+
+#include "apps/experiments/list.hpp"
+#include "apps/map_run.hpp"
+#include "apps/simulated_run.hpp"
+#include "helicoid/manifold/sheets.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// Sheet by sheet: what lies on another sheet is another place, and no twin.
+Outcome measure(const Map& map) {
+  Crispness total;
+  int sheets = 0;
+  const Neighbours neighbours = find_neighbours(map);
+  for (const Island& island : map.islands()) {
+    const Sheets on = find_sheets(map, neighbours, island);
+    sheets = std::max(sheets, on.count);
+    const int drawn = 1 + *std::max_element(on.sheet_of.begin(), on.sheet_of.end());
+    for (int sheet = 0; sheet < drawn; ++sheet) {
+      std::vector<PatchId> patches;
+      for (const PatchId id : island.patches) {
+        if (on.sheet_of[id.index()] == sheet) patches.push_back(id);
+      }
+      const Crispness c = measure_crispness(map, patches, draw_occupancy(map, patches, frame_around(map, patches)));
+      total.occupied += c.occupied;
+      total.twins += c.twins;
+    }
+  }
+  const double share =
+      total.occupied > 0 ? 100.0 * static_cast<double>(total.twins) / static_cast<double>(total.occupied) : 0;
+  return {{{"twins_percent", share},
+           {"occupied_cells", static_cast<double>(total.occupied)},
+           {"sheets_count", static_cast<double>(sheets)},
+           {"patches_count", static_cast<double>(map.patch_count())}},
+          {}};
+}
+
+ExperimentCase recorded(const std::string& name, const std::string& data) {
+  const std::string log = data + "/" + name + "/" + name + ".clf.gz";
+  std::error_code error;
+  ExperimentCase c{name, false, "", {}};
+  if (data.empty() || !std::filesystem::exists(log, error)) {
+    c.missing = fmt::format("the recorded log {}/{}.clf.gz is not there; --data names its folder", name, name);
+  }
+  c.run = [name, log](std::uint64_t) -> Result<Outcome> {
+    MapJob job;
+    job.robots = {{name, {log}}};
+    const Result<MapRun> run = run_map(std::move(job));
+    if (!run) return tl::unexpected(run.error());
+    return measure(run->mapper.map());
+  };
+  return c;
+}
+
+ExperimentCase simulated(const std::string& world_name) {
+  return {world_name, true, "", [world_name](std::uint64_t seed) -> Result<Outcome> {
+            const Result<World> world = load_world(world_name);
+            if (!world) return tl::unexpected(world.error());
+            SimulationOptions options;
+            options.seed = seed;
+            const Result<SimulatedRun> run = map_simulation(*world, options);
+            if (!run) return tl::unexpected(run.error());
+            return measure(run->map());
+          }};
+}
+
+std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
+  std::vector<ExperimentCase> cases;
+  for (const char* name : {"intel", "fr079", "csail"}) cases.push_back(recorded(name, options.data));
+  for (const std::string& name : shipped_worlds()) cases.push_back(simulated(name));
+  return cases;
+}
+
+}  // namespace
+
+Experiment crispness_experiment() {
+  Experiment e;
+  e.name = "crispness";
+  e.question = "Is any wall drawn twice on one sheet?";
+  e.method =
+      "Each log is mapped as it is, each shipped world after one drive with the default noise. On every sheet's "
+      "occupancy "
+      "grid (5 cm) the occupied cells are counted that have a parallel twin: another occupied cell 0.1-0.6 m away, "
+      "straight "
+      "along the surface's normal, whose surface faces the same way and runs beside the first for half a metre. A thin "
+      "wall that is seen from the rooms on both its sides is no twin, since its surfaces face apart; a cupboard "
+      "against a "
+      "wall is none, since it hides the wall behind it. A wall and its copy face the same way, and the nearer one "
+      "should "
+      "have hidden the other. What is seen through (glass, legs of furniture) counts, too: it cannot be told from a "
+      "fault.";
+  e.bars = {{"twins_percent", std::nullopt, 1.0, false}};
+  e.seeds = 5;
+  e.quick_seeds = 1;
+  e.cases = list_cases;
+  return e;
+}
+
+}  // namespace helicoid

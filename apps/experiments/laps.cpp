@@ -1,0 +1,171 @@
+// Does a robot that re-walks known ground add anything to the map?
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+
+#include "apps/experiments/list.hpp"
+#include "apps/process_memory.hpp"
+#include "apps/simulated_run.hpp"
+#include "helicoid/manifold/sheets.hpp"
+
+namespace helicoid {
+
+namespace {
+
+constexpr int kLaps = 10;
+
+/// What was there when a lap ended.
+struct LapRecord {
+  double patches = 0;
+  double relations = 0;
+  double map_bytes = 0;
+  double resident_bytes = 0;
+};
+
+struct LapsResult {
+  std::array<LapRecord, kLaps> laps{};
+  double trajectory_bytes_per_scan = 0;
+  double sheets = 0;
+  double turn_relations = 0;  ///< between patches more than half a lap apart along the way
+  double drift_m = 0;         ///< how far the plane is off after the last lap
+};
+
+LapRecord look(const Map& map) {
+  return {static_cast<double>(map.patch_count()), static_cast<double>(map.relations().size()),
+          static_cast<double>(map_bytes(map)), static_cast<double>(resident_bytes())};
+}
+
+/// Way driven until each scan of the only robot.
+std::vector<double> ways(const TrueTrack& track) {
+  std::vector<double> way{0};
+  for (std::size_t i = 1; i < track.T_world_robot.size(); ++i) {
+    way.push_back(way.back() + (track.T_world_robot[i - 1].inverse() * track.T_world_robot[i]).distance());
+  }
+  return way;
+}
+
+LapsResult drive(const World& world, std::uint64_t seed) {
+  SimulationOptions options;
+  options.seed = seed;
+  options.laps = kLaps;
+  LapsResult result;
+  int lap = 0;
+  const auto observe = [&](const SimulatedEvent& event, const Step&, const Mapper& mapper) {
+    if (event.lap == lap) return;
+    result.laps[static_cast<std::size_t>(lap)] = look(mapper.map());
+    lap = event.lap;
+  };
+  const SimulatedRun run = map_simulation(world, options, {}, observe).value();
+  const Map& map = run.map();
+  for (; lap < kLaps; ++lap) result.laps[static_cast<std::size_t>(lap)] = look(map);
+  const std::vector<double> way = ways(run.tracks[0]);
+  const auto way_of = [&](PatchId id) { return way[map.patch(id).scan_index]; };
+  for (const Relation& r : map.relations()) {
+    if (std::abs(way_of(r.a) - way_of(r.b)) > 0.5 * way.back() / kLaps) ++result.turn_relations;
+  }
+  const auto& trajectory = map.robots()[0].trajectory;
+  result.trajectory_bytes_per_scan =
+      static_cast<double>(trajectory_bytes(map)) / static_cast<double>(trajectory.size());
+  const Pose2 T_first_last = map.project(trajectory.front().pose).inverse() * map.project(trajectory.back().pose);
+  const Pose2 truth = run.tracks[0].T_world_robot.front().inverse() * run.tracks[0].T_world_robot.back();
+  result.drift_m = (truth.inverse() * T_first_last).distance();
+  const Neighbours neighbours = find_neighbours(map);
+  for (const Island& island : map.islands()) {
+    result.sheets = std::max(result.sheets, static_cast<double>(count_sheets(map, neighbours, island)));
+  }
+  return result;
+}
+
+/// In a process of its own, whose memory is this run's alone.
+Result<LapsResult> drive_alone(const World& world, std::uint64_t seed) {
+  static_assert(std::is_trivially_copyable_v<LapsResult>);
+  int ends[2] = {};
+  if (pipe(ends) != 0) return fail("no pipe to a process of its own");
+  const pid_t child = fork();
+  if (child < 0) return fail("no process of its own");
+  if (child == 0) {
+    const LapsResult result = drive(world, seed);
+    const bool told = write(ends[1], &result, sizeof result) == static_cast<ssize_t>(sizeof result);
+    _exit(told ? 0 : 1);
+  }
+  close(ends[1]);
+  LapsResult result;
+  std::size_t got = 0;
+  while (got < sizeof result) {
+    const ssize_t n = read(ends[0], reinterpret_cast<char*>(&result) + got, sizeof result - got);
+    if (n <= 0) break;
+    got += static_cast<std::size_t>(n);
+  }
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  if (got < sizeof result) return fail("the run's process ended early");
+  return result;
+}
+
+Outcome repeated(const LapsResult& r) {
+  const LapRecord& second = r.laps[1];
+  const LapRecord& last = r.laps[kLaps - 1];
+  return {{{"patches_growth_percent", 100 * (last.patches / second.patches - 1)},
+           {"map_growth_ratio", last.map_bytes / second.map_bytes},
+           {"memory_growth_ratio", last.resident_bytes / second.resident_bytes},
+           {"patches_count", last.patches},
+           {"relations_count", last.relations},
+           {"sheets_repeated_count", r.sheets},
+           {"drift_m", r.drift_m},
+           {"memory_mb", last.resident_bytes / 1048576},
+           {"trajectory_per_scan_bytes", r.trajectory_bytes_per_scan}},
+          {}};
+}
+
+Outcome spiral(const LapsResult& r) {
+  return {{{"sheets_count", r.sheets},
+           {"turn_relations_count", r.turn_relations},
+           {"patches_count", r.laps[kLaps - 1].patches},
+           {"drift_m", r.drift_m}},
+          {}};
+}
+
+ExperimentCase make_case(const std::string& world_name, Outcome (*judge)(const LapsResult&)) {
+  return {world_name, true, "", [=](std::uint64_t seed) -> Result<Outcome> {
+            const Result<World> world = load_world(world_name);
+            if (!world) return tl::unexpected(world.error());
+            const Result<LapsResult> result = drive_alone(*world, seed);
+            if (!result) return tl::unexpected(result.error());
+            return judge(*result);
+          }};
+}
+
+}  // namespace
+
+Experiment laps_experiment() {
+  Experiment e;
+  e.name = "laps";
+  e.question = "Does a robot that re-walks known ground add anything to the map?";
+  e.method =
+      "Ten laps with the default noise of laser and odometry, each run in a process of its own: out and back through a "
+      "building without loops (branch), round one room (room), and round a loop corridor (loop) without closing the "
+      "loop. "
+      "In branch and room, growth is from the end of the second lap to the end of the tenth: of the number of patches, "
+      "of "
+      "the map's own bytes (patches, relations, poses) and of the process's resident memory, which holds the pose of "
+      "every "
+      "scan, too. In the loop corridor the uncertainty of a lap exceeds what patches of one sheet may have, so that "
+      "each "
+      "turn must lie on sheets of its own: no relation may join patches more than half a lap apart along the way.";
+  e.bars = {{"patches_growth_percent", std::nullopt, 2.0, false},
+            {"map_growth_ratio", std::nullopt, 1.05, false},
+            {"memory_growth_ratio", std::nullopt, 1.05, false},
+            {"sheets_count", 2.0, std::nullopt, false},
+            {"turn_relations_count", std::nullopt, 0.0, false}};
+  e.seeds = 20;
+  e.quick_seeds = 1;
+  e.cases = [](const ExperimentOptions&) {
+    return std::vector<ExperimentCase>{make_case("branch", repeated), make_case("room", repeated),
+                                       make_case("loop", spiral)};
+  };
+  return e;
+}
+
+}  // namespace helicoid

@@ -1,0 +1,10 @@
+#include "apps/experiments/list.hpp"
+
+namespace helicoid {
+
+const std::vector<Experiment>& experiments() {
+  static const std::vector<Experiment> all{crispness_experiment(), laps_experiment()};
+  return all;
+}
+
+}  // namespace helicoid

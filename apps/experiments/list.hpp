@@ -1,0 +1,11 @@
+// Each experiment is made by the file of its name.
+#pragma once
+
+#include "apps/experiment.hpp"
+
+namespace helicoid {
+
+[[nodiscard]] Experiment crispness_experiment();
+[[nodiscard]] Experiment laps_experiment();
+
+}  // namespace helicoid

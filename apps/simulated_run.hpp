@@ -1,0 +1,38 @@
+// A simulated world mapped in memory: the map, and the truth of every scan beside it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "helicoid/eval/relation_error.hpp"
+#include "helicoid/mapping/mapper.hpp"
+#include "helicoid/simulation/simulator.hpp"
+#include "helicoid/simulation/true_relations.hpp"
+
+namespace helicoid {
+
+struct SimulatedRun {
+  Mapper mapper;
+  std::vector<TrueTrack> tracks;  ///< by robot; one pose a scan, as map().robot(id).trajectory has them
+  [[nodiscard]] const Map& map() const { return mapper.map(); }
+  /// Where a patch truly stands: where its robot was when it took the patch's scan.
+  [[nodiscard]] const Pose2& T_world_patch(PatchId id) const {
+    const Patch& patch = map().patch(id);
+    return tracks[patch.robot.index()].T_world_robot[patch.scan_index];
+  }
+};
+
+/// Told of every event after the mapper's step.
+using SimulationObserver = std::function<void(const SimulatedEvent&, const Step&, const Mapper&)>;
+
+/// Simulates and maps, with the laser's model from its data sheet, as for a log; finish() included. Error: a world
+/// without a route.
+[[nodiscard]] Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions& simulation,
+                                                  const MapperOptions& mapper = {},
+                                                  const SimulationObserver& observer = {});
+
+/// The error of the final poses against the truth, over the relations of choose_true_relations(..., seed).
+[[nodiscard]] RelationError relation_error(const SimulatedRun& run, std::uint64_t seed,
+                                           const RelationErrorOptions& options = {});
+
+}  // namespace helicoid
