@@ -1,65 +1,19 @@
 #include "helicoid/manifold/coverage_sweep.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "helicoid/geometry/row_spans.hpp"
 
 namespace helicoid {
 
-namespace {
-
-/// Where a polygon's edges cross the rows' centre lines: one column value per crossing, row by row.
-struct Crossing {
-  std::int32_t row;
-  float column;
-};
-
-void collect_crossings(const std::vector<Eigen::Vector2f>& ring, const Pose2& T_plane_patch, double cell,
-                       std::vector<Crossing>& crossings) {
-  crossings.clear();
-  const double per_cell = 1 / cell;
-  const auto c = std::cos(T_plane_patch.yaw);
-  const auto s = std::sin(T_plane_patch.yaw);
-  const auto to_cells = [&](const Eigen::Vector2f& p) {
-    const double x = p.x();
-    const double y = p.y();
-    return Vector2d((T_plane_patch.x + c * x - s * y) * per_cell - 0.5,
-                    (T_plane_patch.y + s * x + c * y) * per_cell - 0.5);
-  };
-  Vector2d from = to_cells(ring.back());
-  for (const Eigen::Vector2f& vertex : ring) {
-    const Vector2d to = to_cells(vertex);
-    const Vector2d& low = from.y() < to.y() ? from : to;
-    const Vector2d& high = from.y() < to.y() ? to : from;
-    const auto first = static_cast<std::int32_t>(std::ceil(low.y()));
-    const auto end = static_cast<std::int32_t>(std::ceil(high.y()));
-    if (first < end) {
-      const double slope = (high.x() - low.x()) / (high.y() - low.y());
-      for (std::int32_t row = first; row < end; ++row) {
-        crossings.push_back({row, static_cast<float>(low.x() + slope * (row - low.y()))});
-      }
-    }
-    from = to;
-  }
-  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
-    return a.row != b.row ? a.row < b.row : a.column < b.column;
-  });
-}
-
-}  // namespace
-
 std::vector<CellSpan> covered_cells(const Map& map, std::span<const PatchId> patches, double cell) {
   std::vector<CellSpan> spans;
-  std::vector<Crossing> crossings;
+  RowScanner scanner;
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    const Patch& patch = map.patch(patches[i]);
-    if (patch.free_space.empty()) continue;
-    collect_crossings(patch.free_space, map.T_plane_patch(patches[i]), cell, crossings);
-    // Between an odd and an even crossing of a row lies the inside.
-    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
-      const auto first = static_cast<std::int32_t>(std::ceil(crossings[k].column));
-      const auto last = static_cast<std::int32_t>(std::ceil(crossings[k + 1].column)) - 1;
-      if (first <= last) spans.push_back({crossings[k].row, first, last, static_cast<std::uint32_t>(i)});
-    }
+    const auto place = static_cast<std::uint32_t>(i);
+    scanner.scan(map.patch(patches[i]).free_space, map.T_plane_patch(patches[i]), cell, [&](const RowSpan& span) {
+      spans.push_back({span.row, span.first, span.last, place});
+    });
   }
   return spans;
 }
