@@ -51,6 +51,28 @@ bool has_class(const pugi::xml_node& element, std::string_view wanted) {
   return classes.find(" " + std::string(wanted) + " ") != std::string::npos;
 }
 
+/// The outline of a straight piece of wall, square at its ends so that pieces join.
+void add_thick(const Vector2d& a, const Vector2d& b, double thickness, std::vector<Segment>& segments) {
+  const Vector2d along = 0.5 * thickness * (b - a).normalized();
+  const Vector2d across(-along.y(), along.x());
+  const Vector2d corners[] = {a - along - across, b + along - across, b + along + across, a - along + across};
+  for (std::size_t i = 0; i < 4; ++i) segments.push_back({corners[i], corners[(i + 1) % 4]});
+}
+
+void add_lines(const std::vector<Vector2d>& points, bool closed, double thickness, std::vector<Segment>& segments) {
+  const std::size_t count = points.size() - (closed && points.size() > 2 ? 0 : 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector2d& a = points[i];
+    const Vector2d& b = points[(i + 1) % points.size()];
+    if (a == b) continue;
+    if (thickness > 0) {
+      add_thick(a, b, thickness, segments);
+    } else {
+      segments.push_back({a, b});
+    }
+  }
+}
+
 void add_element(const pugi::xml_node& element, const SvgTransform& transform, World& world) {
   if (has_class(element, "start")) {
     const Vector2d at = to_world(transform, {element.attribute("cx").as_double(), element.attribute("cy").as_double()});
@@ -64,11 +86,13 @@ void add_element(const pugi::xml_node& element, const SvgTransform& transform, W
   for (const SvgLine& line : lines_of(element)) {
     std::vector<Vector2d> points;
     for (const Vector2d& p : line.points) points.push_back(to_world(transform, p));
-    if (route && points.size() > 1) world.routes.push_back({points, line.closed});
-    auto& segments = wall ? world.walls : world.doors;
-    if (route) continue;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) segments.push_back({points[i], points[i + 1]});
-    if (line.closed && points.size() > 2) segments.push_back({points.back(), points.front()});
+    if (points.size() < 2) continue;
+    if (route) {
+      world.routes.push_back({points, line.closed});
+    } else {
+      const double thickness = wall ? element.attribute("data-thickness").as_double() : 0;
+      add_lines(points, line.closed, thickness, wall ? world.walls : world.doors);
+    }
   }
 }
 

@@ -29,8 +29,9 @@ struct World {
 [[nodiscard]] std::vector<std::string> shipped_worlds();
 
 /// An SVG whose user units are metres; elements of class wall, start, door and route (line, polyline, polygon, rect,
-/// path, circle; group transforms). The file's y points down; the world's points up: y = -y_svg. A start is a circle;
-/// its heading is the attribute data-yaw, in degrees anticlockwise in the world.
+/// path, circle; group transforms). The file's y points down; the world's points up: y = -y_svg. A wall with the
+/// attribute data-thickness (metres) has two faces, half of it to each side of its line. A start is a circle; its
+/// heading is the attribute data-yaw, in degrees anticlockwise in the world.
 [[nodiscard]] Result<World> parse_svg_world(const std::string& svg, const std::string& name);
 
 /// ROS map_server's MAP.yaml with a PGM or PNG image; what is not free is solid.

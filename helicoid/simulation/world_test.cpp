@@ -63,6 +63,16 @@ TEST(SvgWorld, ARectangleIsFourWalls) {
   EXPECT_EQ(world->walls.size(), 4U);
 }
 
+TEST(SvgWorld, AThickWallIsSeenOnBothItsFaces) {
+  const Result<World> world =
+      parse_svg_world("<svg><line class='wall' data-thickness='0.2' x1='-5' y1='0' x2='5' y2='0'/></svg>", "test");
+  ASSERT_TRUE(world.has_value());
+  const RayCaster walls(world->walls);
+  EXPECT_NEAR(walls.cast({0, -2}, {0, 1}, 50).distance, 1.9, 1e-12);
+  EXPECT_NEAR(walls.cast({0, 2}, {0, -1}, 50).distance, 1.9, 1e-12);
+  EXPECT_NEAR(walls.cast({7, 0}, {-1, 0}, 50).distance, 1.9, 1e-12);
+}
+
 TEST(SvgWorld, RefusesWhatIsNoSvgOrHasNoWall) {
   EXPECT_FALSE(parse_svg_world("<svg", "test").has_value());
   EXPECT_FALSE(parse_svg_world("", "test").has_value());
