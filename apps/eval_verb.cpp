@@ -72,14 +72,15 @@ Result<std::vector<EvaluatedTrajectory>> load_all(const std::vector<std::string>
       continue;
     }
     const std::map<std::string, int> islands = read_islands(name);
-    const fs::path folder = fs::is_directory(fs::path(name) / "trajectories", error) ? fs::path(name) / "trajectories"
-                                                                                     : fs::path(name);
+    const fs::path folder =
+        fs::is_directory(fs::path(name) / "trajectories", error) ? fs::path(name) / "trajectories" : fs::path(name);
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() == ".tum") files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
-    if (files.empty()) return fail("{}: holds no trajectory (trajectories/*.tum); name a map's folder or .tum files", name);
+    if (files.empty())
+      return fail("{}: holds no trajectory (trajectories/*.tum); name a map's folder or .tum files", name);
     for (const fs::path& file : files) {
       const auto island = islands.find(robot_name(file));
       Result<EvaluatedTrajectory> one =
@@ -91,7 +92,9 @@ Result<std::vector<EvaluatedTrajectory>> load_all(const std::vector<std::string>
   return all;
 }
 
-Json to_json(const ErrorStatistics& s) { return {{"mean", s.mean}, {"std", s.std}, {"rms", s.rms}, {"max", s.max}}; }
+Json to_json(const ErrorStatistics& s) {
+  return {{"mean", s.mean}, {"std", s.std}, {"rms", s.rms}, {"max", s.max}};
+}
 
 int score_relations(const EvalArguments& a, const std::vector<EvaluatedTrajectory>& trajectories) {
   const Result<RelationsFile> file = read_relations(a.relations);
@@ -108,8 +111,11 @@ int score_relations(const EvalArguments& a, const std::vector<EvaluatedTrajector
   options.between_robots = a.between_robots;
   const RelationError e = relation_error(trajectories, relations, options);
   if (a.json) {
-    const Json json = {{"relations", e.relations}, {"scored", e.scored}, {"missing", e.missing},
-                       {"translation_m", to_json(e.translation_m)}, {"rotation_deg", to_json(e.rotation_deg)}};
+    const Json json = {{"relations", e.relations},
+                       {"scored", e.scored},
+                       {"missing", e.missing},
+                       {"translation_m", to_json(e.translation_m)},
+                       {"rotation_deg", to_json(e.rotation_deg)}};
     fmt::print("{}\n", json.dump(1));
   } else {
     fmt::print("relations    {} scored, {} missing\n", e.scored, e.missing);
@@ -128,12 +134,15 @@ int score_truth(const EvalArguments& a, const std::vector<EvaluatedTrajectory>& 
   const EvaluatedTrajectory& t = trajectories.front();
   const TrajectoryError e = trajectory_error(t.stamps, t.poses, truth->stamps, truth->poses);
   if (a.json) {
-    const Json json = {{"poses", t.poses.size()}, {"matched", e.matched}, {"ate_m", e.ate_m}, {"rpe_m", e.rpe_m},
+    const Json json = {{"poses", t.poses.size()},
+                       {"matched", e.matched},
+                       {"ate_m", e.ate_m},
+                       {"rpe_m", e.rpe_m},
                        {"rpe_deg", e.rpe_deg}};
     fmt::print("{}\n", json.dump(1));
   } else {
-    fmt::print("poses  {} of {} with a true pose\nATE    {:.4f} m\nRPE    {:.4f} m, {:.3f} deg over a second\n", e.matched,
-               t.poses.size(), e.ate_m, e.rpe_m, e.rpe_deg);
+    fmt::print("poses  {} of {} with a true pose\nATE    {:.4f} m\nRPE    {:.4f} m, {:.3f} deg over a second\n",
+               e.matched, t.poses.size(), e.ate_m, e.rpe_m, e.rpe_deg);
   }
   return e.matched < t.poses.size() ? kNotAsAsked : kDone;
 }
@@ -155,8 +164,9 @@ void add_eval_verb(CLI::App& program, int& exit_code) {
   verb->add_option("--max-gap", a->max_gap, "score only relations of scans at most S seconds apart")->needs(relations);
   verb->add_flag("--between-robots", a->between_robots, "score only relations of two robots")->needs(relations);
   verb->add_flag("--json", a->json, "print one JSON object");
-  verb->footer("Examples:\n  helicoid eval site --relations intel.relations.gz --max-gap 5\n"
-               "  helicoid eval site/trajectories/robot1.tum --truth sim/truth/robot1.tum");
+  verb->footer(
+      "Examples:\n  helicoid eval site --relations intel.relations.gz --max-gap 5\n"
+      "  helicoid eval site/trajectories/robot1.tum --truth sim/truth/robot1.tum");
   verb->callback([a, truth, relations, &exit_code] {
     if (truth->empty() && relations->empty()) throw CLI::RequiredError("--relations or --truth");
     exit_code = run_verb(*a);

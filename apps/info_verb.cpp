@@ -18,12 +18,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json describe_map(const Map& map, const std::string& path) {
-  Json json = {{"file", path}, {"kind", "map"}, {"content_hash", content_hash(map).hex()},
-               {"patches", map.patch_count()}, {"relations", map.relations().size()},
+  Json json = {{"file", path},
+               {"kind", "map"},
+               {"content_hash", content_hash(map).hex()},
+               {"patches", map.patch_count()},
+               {"relations", map.relations().size()},
                {"islands", map.islands().size()}};
   Json robots = Json::array();
   for (const RobotRecord& robot : map.robots()) {
-    robots.push_back({{"name", robot.name}, {"scans", robot.trajectory.size()},
+    robots.push_back({{"name", robot.name},
+                      {"scans", robot.trajectory.size()},
                       {"laser", robot.lasers.empty() ? "" : describe(robot.lasers.front())}});
   }
   json["robots"] = robots;
@@ -52,10 +56,17 @@ Json describe_log(MergedLogs& logs, const std::string& path) {
   Json lasers = Json::array();
   for (const LaserModel& laser : reader.lasers()) lasers.push_back(describe(laser));
   Json skipped = Json::array();
-  for (const Skipped& s : reader.skipped()) skipped.push_back({{"reason", s.reason}, {"count", s.count}, {"first", s.first}});
-  json.update({{"lasers", lasers}, {"scans", scans}, {"odometry", odometry}, {"sightings", sightings},
-               {"duration_s", last - first}, {"odometry_path_m", length}, {"stamps_going_back", backwards},
-               {"skipped", skipped}, {"warnings", reader.warnings()}});
+  for (const Skipped& s : reader.skipped())
+    skipped.push_back({{"reason", s.reason}, {"count", s.count}, {"first", s.first}});
+  json.update({{"lasers", lasers},
+               {"scans", scans},
+               {"odometry", odometry},
+               {"sightings", sightings},
+               {"duration_s", last - first},
+               {"odometry_path_m", length},
+               {"stamps_going_back", backwards},
+               {"skipped", skipped},
+               {"warnings", reader.warnings()}});
   return json;
 }
 
@@ -76,8 +87,11 @@ Result<Json> look_at(const std::string& path) {
     for (std::size_t i = 1; i < tum.poses.size(); ++i) {
       length += (tum.poses[i - 1].pose.inverse() * tum.poses[i].pose).distance();
     }
-    return Json{{"file", path}, {"kind", "TUM trajectory"}, {"poses", tum.poses.size()},
-                {"duration_s", tum.poses.back().stamp - tum.poses.front().stamp}, {"path_m", length}};
+    return Json{{"file", path},
+                {"kind", "TUM trajectory"},
+                {"poses", tum.poses.size()},
+                {"duration_s", tum.poses.back().stamp - tum.poses.front().stamp},
+                {"path_m", length}};
   }
   if (const RelationsFile relations = parse_relations(text->text, path); !relations.relations.empty()) {
     return Json{{"file", path}, {"kind", "relations"}, {"relations", relations.relations.size()}};
@@ -96,8 +110,9 @@ void add_info_verb(CLI::App& program, int& exit_code) {
   CLI::App* verb = program.add_subcommand("info", "Say what a file is and what is in it");
   verb->add_option("FILE", a->file, "a log, a map (map.gpkg), a trajectory or a relations file")->required();
   verb->add_flag("--json", a->json, "print one JSON object");
-  verb->footer("Examples:\n  helicoid info robot1.clf.gz\n  helicoid info site/map.gpkg\n"
-               "Two maps are equal to the bit exactly when their content hashes are equal.");
+  verb->footer(
+      "Examples:\n  helicoid info robot1.clf.gz\n  helicoid info site/map.gpkg\n"
+      "Two maps are equal to the bit exactly when their content hashes are equal.");
   verb->callback([a, &exit_code] {
     const Result<Json> json = look_at(a->file);
     if (!json) {

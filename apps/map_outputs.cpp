@@ -45,7 +45,7 @@ const IslandReport& island_of(const MapReport& report, IslandId id) {
                        [id](const IslandReport& i) { return i.island.id == id; });
 }
 
-Result<void> write_trajectories(const Map& map, const MapReport& report, const std::string& folder) {
+Result<void> write_trajectories(const Map& map, const MapReport& report, const std::string& folder, bool online_only) {
   std::error_code error;
   fs::create_directories(fs::path(folder) / "trajectories" / "online", error);
   for (const RobotRecord& robot : map.robots()) {
@@ -59,7 +59,8 @@ Result<void> write_trajectories(const Map& map, const MapReport& report, const s
       online.push_back({scan.stamp, T_island_plane * scan.T_island_robot_online});
     }
     const std::string base = folder + "/trajectories/";
-    if (auto done = write_whole_file(base + robot.name + ".tum", to_tum(final_poses)); !done) return done;
+    if (auto done = write_whole_file(base + robot.name + ".tum", to_tum(online_only ? online : final_poses)); !done)
+      return done;
     if (auto done = write_whole_file(base + "online/" + robot.name + ".tum", to_tum(online)); !done) return done;
   }
   return {};
@@ -75,7 +76,8 @@ struct Pictures {
 };
 
 /// One picture a sheet, each in a frame of its own.
-void write_sheets(const Map& map, const IslandReport& report, const std::string& folder, int threads, Pictures& pictures) {
+void write_sheets(const Map& map, const IslandReport& report, const std::string& folder, int threads,
+                  Pictures& pictures) {
   std::error_code error;
   fs::create_directories(folder + "/sheets", error);
   const int drawn = 1 + *std::max_element(report.sheets.sheet_of.begin(), report.sheets.sheet_of.end());
@@ -138,11 +140,12 @@ MapReport report_on(const Map& map, bool drawn) {
   return report;
 }
 
-Result<void> write_records(const MapRun& run, const MapReport& report, const std::string& folder) {
+Result<void> write_records(const MapRun& run, const MapReport& report, const std::string& folder, bool online_only) {
   const Map& map = run.mapper.map();
-  if (auto done = write_trajectories(map, report, folder); !done) return done;
+  if (auto done = write_trajectories(map, report, folder, online_only); !done) return done;
   if (auto done = write_whole_file(folder + "/graph.g2o", to_g2o(map)); !done) return done;
-  if (auto done = write_whole_file(folder + "/ledger.json", "{\"format\": \"helicoid-ledger\", \"entries\": []}\n"); !done) {
+  if (auto done = write_whole_file(folder + "/ledger.json", "{\"format\": \"helicoid-ledger\", \"entries\": []}\n");
+      !done) {
     return done;
   }
   return write_map(map, folder + "/map.gpkg");

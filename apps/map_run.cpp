@@ -9,7 +9,9 @@ namespace helicoid {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
+void interrupt(int) {
+  interrupted = 1;
+}
 
 /// Ctrl-C asks for an end instead of making one, as long as this lives.
 class InterruptGuard {
@@ -95,7 +97,8 @@ Result<MapRun> run_map(MapJob job) {
   Selection selection(job, logs->robots().size());
   double mapping = 0;
   while (const Event* event = logs->next()) {
-    if (interrupted != 0) break;
+    // One scan at least, so that there is a map to write.
+    if (interrupted != 0 && !run.scan_seconds.empty()) break;
     if (!selection.wants(*event)) continue;
     if (!std::holds_alternative<Scan>(event->body)) {
       run.mapper.process(*event);

@@ -14,9 +14,9 @@ namespace helicoid {
 
 struct MapJob {
   std::vector<RobotLogs> robots;
-  std::string laser;        ///< a shipped model's name or a file; empty: as recognised
-  std::size_t every = 1;    ///< only every n-th scan of a robot
-  double from = 0;          ///< seconds since the robot's first stamp
+  std::string laser;      ///< a shipped model's name or a file; empty: as recognised
+  std::size_t every = 1;  ///< only every n-th scan of a robot
+  double from = 0;        ///< seconds since the robot's first stamp
   double to = 1e300;
   MapperOptions mapper;
   /// Called now and then with the share of events that are done, 0..1.
@@ -30,11 +30,11 @@ struct PhaseTimes {
 
 struct MapRun {
   Mapper mapper;
-  std::vector<std::string> logs;         ///< by robot: its files, joined by commas
-  std::vector<std::string> lasers;       ///< by robot, in words
+  std::vector<std::string> logs;    ///< by robot: its files, joined by commas
+  std::vector<std::string> lasers;  ///< by robot, in words
   std::vector<std::string> warnings;
   std::vector<Skipped> skipped;
-  std::vector<double> scan_seconds;      ///< thread CPU time of each scan, in order
+  std::vector<double> scan_seconds;  ///< thread CPU time of each scan, in order
   std::size_t scans = 0;
   bool interrupted = false;
   PhaseTimes phase;

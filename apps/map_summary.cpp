@@ -11,11 +11,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+double seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
 
 /// Microseconds, to a tenth.
-double micro(double s) { return std::round(1e7 * s) / 10; }
-double milli(double s) { return std::round(1e6 * s) / 1e6; }
+double micro(double s) {
+  return std::round(1e7 * s) / 10;
+}
+double milli(double s) {
+  return std::round(1e6 * s) / 1e6;
+}
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -55,8 +61,11 @@ void add_contents(Json& json, const Map& map, const MapReport& report) {
   Json islands = Json::array();
   for (const IslandReport& i : report.islands) {
     sheets = std::max(sheets, i.sheets.count);
-    islands.push_back({{"id", i.island.id.value}, {"robots", i.robots}, {"patches", i.island.patches.size()},
-                       {"sheets", i.sheets.count}, {"area_m2", std::round(100 * i.area_m2) / 100}});
+    islands.push_back({{"id", i.island.id.value},
+                       {"robots", i.robots},
+                       {"patches", i.island.patches.size()},
+                       {"sheets", i.sheets.count},
+                       {"area_m2", std::round(100 * i.area_m2) / 100}});
   }
   json["sheets"] = sheets;
   json["island_count"] = report.islands.size();
@@ -74,7 +83,9 @@ Json summarise(const MapRun& run, const MapReport& report, const Json& options) 
   for (std::size_t i = 0; i < map.robots().size(); ++i) {
     const RobotRecord& robot = map.robots()[i];
     const bool mapped = !robot.trajectory.empty();
-    robots.push_back({{"name", robot.name}, {"log", run.logs[i]}, {"scans", robot.trajectory.size()},
+    robots.push_back({{"name", robot.name},
+                      {"log", run.logs[i]},
+                      {"scans", robot.trajectory.size()},
                       {"island", mapped ? Json(map.island_of(robot.trajectory.front().pose.patch).value) : Json()}});
   }
   json["robots"] = robots;
@@ -87,9 +98,9 @@ Json summarise(const MapRun& run, const MapReport& report, const Json& options) 
   json["scan_us_p50"] = micro(percentile(run.scan_seconds, 0.50));
   json["scan_us_p99"] = micro(percentile(run.scan_seconds, 0.99));
   json["scan_us_by_tenth"] = by_tenth(run.scan_seconds);
-  json["phase_cpu_s"] = {{"read", milli(run.phase.read)}, {"match", milli(run.phase.match)}, {"fit", milli(run.phase.fit)},
-                         {"close", milli(run.phase.close)}, {"charts", milli(run.phase.charts)},
-                         {"write", milli(run.phase.write)}};
+  json["phase_cpu_s"] = {{"read", milli(run.phase.read)},     {"match", milli(run.phase.match)},
+                         {"fit", milli(run.phase.fit)},       {"close", milli(run.phase.close)},
+                         {"charts", milli(run.phase.charts)}, {"write", milli(run.phase.write)}};
   Json skipped = Json::array();
   for (const Skipped& s : run.skipped) {
     skipped.push_back({{"reason", s.reason}, {"count", s.count}, {"first", s.first}});

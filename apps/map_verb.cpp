@@ -34,17 +34,23 @@ struct MapArguments {
 
 /// What decides the result; not where it goes and not how many threads work.
 Json options_json(const MapArguments& a) {
-  Json json = {{"laser", a.laser.empty() ? "recognised" : a.laser}, {"every", a.every}, {"from", a.from},
-               {"to", a.to < 1e300 ? Json(a.to) : Json()}, {"charts", !a.no_charts}, {"closures", false},
-               {"join", a.join}, {"online", a.online}};
+  Json json = {{"laser", a.laser.empty() ? "recognised" : a.laser},
+               {"every", a.every},
+               {"from", a.from},
+               {"to", a.to < 1e300 ? Json(a.to) : Json()},
+               {"charts", !a.no_charts},
+               {"closures", false},
+               {"join", a.join},
+               {"online", a.online}};
   return json;
 }
 
-void print_report(const MapRun& run, const Json& summary, const MapArguments& a, const std::vector<std::string>& files) {
+void print_report(const MapRun& run, const Json& summary, const MapArguments& a,
+                  const std::vector<std::string>& files) {
   for (const std::string& laser : run.lasers) fmt::print("laser      {}\n", laser);
-  fmt::print("scans      {}\npatches    {}, {} related pairs, {} correspondences\n", summary["scans"].get<std::size_t>(),
-             summary["patches"].get<std::size_t>(), summary["relations"].get<std::size_t>(),
-             summary["correspondences"].get<std::size_t>());
+  fmt::print("scans      {}\npatches    {}, {} related pairs, {} correspondences\n",
+             summary["scans"].get<std::size_t>(), summary["patches"].get<std::size_t>(),
+             summary["relations"].get<std::size_t>(), summary["correspondences"].get<std::size_t>());
   for (const auto& island : summary["islands"]) {
     fmt::print("island {:<4}{} patches, {:.1f} m2, {} ({})\n", island["id"].get<std::size_t>(),
                island["patches"].get<std::size_t>(), island["area_m2"].get<double>(),
@@ -55,9 +61,9 @@ void print_report(const MapRun& run, const Json& summary, const MapArguments& a,
              summary["scan_us_p50"].get<double>(), summary["scan_us_p99"].get<double>(),
              summary["peak_rss_mb"].get<double>());
   const auto& phase = summary["phase_cpu_s"];
-  fmt::print("           read {:.3f}, match {:.3f}, fit {:.3f}, charts {:.3f}, write {:.3f}\n", phase["read"].get<double>(),
-             phase["match"].get<double>(), phase["fit"].get<double>(), phase["charts"].get<double>(),
-             phase["write"].get<double>());
+  fmt::print("           read {:.3f}, match {:.3f}, fit {:.3f}, charts {:.3f}, write {:.3f}\n",
+             phase["read"].get<double>(), phase["match"].get<double>(), phase["fit"].get<double>(),
+             phase["charts"].get<double>(), phase["write"].get<double>());
   fmt::print("map        {}/map.gpkg\n", a.out);
   for (std::size_t i = 0; i < std::min<std::size_t>(files.size(), 6); ++i) fmt::print("picture    {}\n", files[i]);
   if (files.size() > 6) fmt::print("           and {} more\n", files.size() - 6);
@@ -76,7 +82,7 @@ int finish(MapRun& run, const MapArguments& a) {
   const double before_write = thread_cpu_seconds();
   run.phase.fit += before_charts - before_report;
   run.phase.charts = before_write - before_charts;
-  if (auto done = write_records(run, report, a.out); !done) return report_failure(done.error().message);
+  if (auto done = write_records(run, report, a.out, a.online); !done) return report_failure(done.error().message);
   run.phase.write = thread_cpu_seconds() - before_write;
   const Json summary = summarise(run, report, options_json(a));
   if (auto done = write_whole_file(a.out + "/summary.json", summary.dump(1) + "\n"); !done) {
@@ -92,15 +98,14 @@ int finish(MapRun& run, const MapArguments& a) {
   } else {
     print_report(run, summary, a, files);
   }
-  return kDone;
+  return run.interrupted ? kNotAsAsked : kDone;
 }
 
 int run_verb(const MapArguments& a) {
   Result<std::vector<RobotLogs>> robots = name_robots(a.logs, a.named);
   if (!robots) return report_failure(robots.error().message);
-  if (auto ready = prepare_output_folder(a.out, "summary.json", a.force); !ready) {
-    return report_failure(ready.error().message);
-  }
+  const Result<OutputFolder> folder = OutputFolder::open(a.out, "summary.json", a.force);
+  if (!folder) return report_failure(folder.error().message);
   ProgressBar bar;
   MapJob job;
   job.robots = std::move(*robots);
@@ -111,6 +116,7 @@ int run_verb(const MapArguments& a) {
   job.progress = [&bar](double share) { bar.show(share, "mapping"); };
   Result<MapRun> run = run_map(std::move(job));
   if (!run) return report_failure(run.error().message);
+  folder->clear_old_results();
   return finish(*run, a);
 }
 
@@ -123,21 +129,25 @@ void add_map_verb(CLI::App& program, int& exit_code) {
   verb->add_option("--robot", a->named, "NAME=LOG[,LOG...]: a robot with a name and one or more logs")->take_all();
   verb->add_option("--out", a->out, "the folder to write into")->required();
   verb->add_option("--laser", a->laser, "a laser's name (sick-lms200, hokuyo-urg, ...) or a file; default: recognised");
-  verb->add_option("--join", a->join, "what may join islands")->check(CLI::IsMember({"sightings", "evidence"}))
+  verb->add_option("--join", a->join, "what may join islands")
+      ->check(CLI::IsMember({"sightings", "evidence"}))
       ->capture_default_str();
   verb->add_option("--every", a->every, "map only every N-th scan")->check(CLI::PositiveNumber)->capture_default_str();
   verb->add_option("--from", a->from, "start this many seconds after a robot's first scan");
   verb->add_option("--to", a->to, "stop this many seconds after a robot's first scan");
   verb->add_option("--threads", a->threads, "threads that draw; the result does not depend on it")
-      ->check(CLI::Range(1, 64))->capture_default_str();
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   verb->add_flag("--no-charts", a->no_charts, "write no pictures");
   verb->add_flag("--no-closures", a->no_closures, "close no loops (none are closed yet)");
-  verb->add_flag("--online", a->online, "keep each pose as the robot first reported it (always in trajectories/online)");
+  verb->add_flag("--online", a->online,
+                 "trajectories: each pose as the robot would have had it then, not as it is known now");
   verb->add_flag("--force", a->force, "write into a folder that something else made");
   verb->add_flag("--json", a->json, "print the summary as one JSON object");
-  verb->footer("Examples:\n  helicoid map robot1.log.gz --out site\n"
-               "  helicoid map a.log b.log --out team --threads 2\n"
-               "  helicoid map --robot r2=monday.log,tuesday.log --out site --no-charts --json");
+  verb->footer(
+      "Examples:\n  helicoid map robot1.log.gz --out site\n"
+      "  helicoid map a.log b.log --out team --threads 2\n"
+      "  helicoid map --robot r2=monday.log,tuesday.log --out site --no-charts --json");
   verb->callback([a, &exit_code] {
     if (a->logs.empty() && a->named.empty()) throw CLI::RequiredError("LOG or --robot");
     exit_code = run_verb(*a);

@@ -156,9 +156,9 @@ int run_verb(SimulateArguments a) {
   a.simulation.sightings = a.simulation.robots > 1 && !a.no_sightings;
   Result<Simulator> simulator = Simulator::make(*world, a.simulation);
   if (!simulator) return report_failure(simulator.error().message);
-  if (auto ready = prepare_output_folder(a.out, "simulation.json", a.force); !ready) {
-    return report_failure(ready.error().message);
-  }
+  const Result<OutputFolder> folder = OutputFolder::open(a.out, "simulation.json", a.force);
+  if (!folder) return report_failure(folder.error().message);
+  folder->clear_old_results();
   const Recording recording = record(*simulator, a);
   const Result<Json> summary = write_recording(*world, recording, a);
   if (!summary) return report_failure(summary.error().message);

@@ -11,6 +11,8 @@ int report_failure(const std::string& message) {
   return kCouldNot;
 }
 
-void report_warning(const std::string& message) { fmt::print(stderr, "warning: {}\n", message); }
+void report_warning(const std::string& message) {
+  fmt::print(stderr, "warning: {}\n", message);
+}
 
 }  // namespace helicoid

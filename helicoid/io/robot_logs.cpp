@@ -13,8 +13,9 @@ bool is_name(const std::string& name) {
   });
 }
 
-std::string base_name(const std::string& path) {
+std::string base_name(std::string path) {
   if (path == "-") return "stdin";
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
   const std::string file = path.substr(path.find_last_of('/') + 1);
   return file.substr(0, file.find('.'));
 }
@@ -50,8 +51,10 @@ Result<std::vector<RobotLogs>> name_robots(std::span<const std::string> logs, st
   std::sort(robots.begin(), robots.end(), [](const RobotLogs& a, const RobotLogs& b) { return a.name < b.name; });
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (!is_name(robots[i].name)) {
-      return fail("{}: \"{}\" cannot be a robot's name (letters, digits, _ and -, at most 64); give one with "
-                  "--robot NAME={}", robots[i].paths.front(), robots[i].name, robots[i].paths.front());
+      return fail(
+          "{}: \"{}\" cannot be a robot's name (letters, digits, _ and -, at most 64); give one with "
+          "--robot NAME={}",
+          robots[i].paths.front(), robots[i].name, robots[i].paths.front());
     }
     if (i > 0 && robots[i].name == robots[i - 1].name) {
       return fail("{} and {} are both robot \"{}\"; tell them apart with --robot NAME=LOG", robots[i - 1].paths.front(),
