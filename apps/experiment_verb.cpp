@@ -1,11 +1,11 @@
 // helicoid experiment: a question about the program, answered with numbers and judged by bars.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "apps/experiment_page.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/repository.hpp"
 #include "apps/verb.hpp"
 #include "helicoid/base/whole_file.hpp"
 
@@ -13,24 +13,12 @@ namespace helicoid {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ExperimentArguments {
   std::string name;
   ExperimentOptions options;
   std::string docs;
   std::string json;
 };
-
-/// The source tree that the program is run in, or an empty path.
-fs::path find_repository() {
-  std::error_code error;
-  for (fs::path at = fs::current_path(error); !at.empty(); at = at.parent_path()) {
-    if (fs::exists(at / "worlds" / "office.svg", error) && fs::exists(at / "helicoid" / "mapping", error)) return at;
-    if (at == at.root_path()) break;
-  }
-  return {};
-}
 
 void list_experiments() {
   for (const Experiment& e : experiments()) {
@@ -49,8 +37,8 @@ std::string names() {
 int write_page(const Experiment& experiment, const ExperimentArguments& a, const ExperimentReport& report) {
   std::string folder = a.docs;
   if (folder.empty() && !a.options.quick && a.options.seeds == 0) {
-    const fs::path repository = find_repository();
-    if (!repository.empty()) folder = (repository / "docs" / "experiments").string();
+    const std::string repository = find_repository();
+    if (!repository.empty()) folder = repository + "/docs/experiments";
   }
   if (folder.empty()) return kDone;
   if (auto done = write_experiment_page(experiment, a.options, report, folder); !done) {
@@ -71,11 +59,7 @@ int run_verb(ExperimentArguments a) {
     report_failure(fmt::format("{}: is no experiment; there are {} (and `experiment list`)", a.name, names()));
     return kUsage;
   }
-  if (a.options.data.empty()) {
-    const fs::path beside = find_repository() / ".." / "shared" / "data";
-    std::error_code error;
-    if (fs::is_directory(beside, error)) a.options.data = beside.lexically_normal().string();
-  }
+  if (a.options.data.empty()) a.options.data = find_recorded_data();
   ProgressBar bar;
   const Result<ExperimentReport> report =
       run_experiment(*found, a.options, [&](double share) { bar.show(share, found->name.c_str()); });

@@ -7,6 +7,7 @@
 
 #include "apps/output_folder.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/simulated_run.hpp"
 #include "apps/verb.hpp"
 #include "apps/world_picture.hpp"
 #include "helicoid/base/whole_file.hpp"
@@ -14,8 +15,6 @@
 #include "helicoid/io/gzip_file.hpp"
 #include "helicoid/io/relations_file.hpp"
 #include "helicoid/io/trajectory.hpp"
-#include "helicoid/simulation/simulator.hpp"
-#include "helicoid/simulation/true_relations.hpp"
 
 namespace helicoid {
 
@@ -77,13 +76,10 @@ Recording record(Simulator& simulator, const SimulateArguments& a) {
   return recording;
 }
 
-std::vector<TrueRelation> true_relations(const Recording& recording, std::uint64_t seed) {
+std::vector<TrueRelation> relations_of(const Recording& recording, std::uint64_t seed) {
   std::vector<TrueRelation> relations;
-  for (const ScanPair& p : choose_true_relations(recording.tracks, seed)) {
-    const TrueTrack& a = recording.tracks[p.robot_a];
-    const TrueTrack& b = recording.tracks[p.robot_b];
-    relations.push_back({a.robot, a.stamps[p.scan_a], b.robot, b.stamps[p.scan_b],
-                         a.T_world_robot[p.scan_a].inverse() * b.T_world_robot[p.scan_b]});
+  for (const EvaluatedRelation& r : true_relations(recording.tracks, seed)) {
+    relations.push_back({r.robot_a, r.stamp_a, r.robot_b, r.stamp_b, r.T_a_b});
   }
   return relations;
 }
@@ -133,7 +129,7 @@ Result<Json> write_recording(const World& world, const Recording& recording, con
     if (auto done = write_whole_file(base + "truth/" + robot + ".tum", truth); !done)
       return tl::unexpected(done.error());
   }
-  const std::vector<TrueRelation> relations = true_relations(recording, a.simulation.seed);
+  const std::vector<TrueRelation> relations = relations_of(recording, a.simulation.seed);
   const Json summary = to_json(a, recording, relations.size());
   const std::pair<const char*, std::string> files[] = {
       {"truth.relations",

@@ -1,5 +1,6 @@
 #include "apps/simulated_run.hpp"
 
+#include "apps/map_run.hpp"
 #include "helicoid/io/laser_recognition.hpp"
 
 namespace helicoid {
@@ -10,13 +11,15 @@ Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions&
   if (!simulator) return tl::unexpected(simulator.error());
   const Result<LaserModel> laser = load_laser("sick-lms200", simulator->laser());
   if (!laser) return tl::unexpected(laser.error());
-  SimulatedRun run{Mapper(mapper), {}};
+  SimulatedRun run{Mapper(mapper), {}, 0};
   for (std::size_t i = 0; i < static_cast<std::size_t>(simulation.robots); ++i) {
     run.mapper.add_robot(simulated_robot_name(i), {*laser});
     run.tracks.push_back({simulated_robot_name(i), {}, {}});
   }
   while (const std::optional<SimulatedEvent> simulated = simulator->next()) {
+    const double before = thread_cpu_seconds();
     const Step step = run.mapper.process(simulated->event);
+    run.cpu_s += thread_cpu_seconds() - before;
     if (std::holds_alternative<Scan>(simulated->event.body)) {
       TrueTrack& track = run.tracks[simulated->event.robot.index()];
       track.stamps.push_back(simulated->event.stamp);
@@ -24,29 +27,39 @@ Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions&
     }
     if (observer) observer(*simulated, step, run.mapper);
   }
+  const double before = thread_cpu_seconds();
   run.mapper.finish();
+  run.cpu_s += thread_cpu_seconds() - before;
   return run;
 }
 
-RelationError relation_error(const SimulatedRun& run, std::uint64_t seed, const RelationErrorOptions& options) {
-  std::vector<EvaluatedTrajectory> trajectories;
-  for (const RobotRecord& robot : run.map().robots()) {
-    EvaluatedTrajectory trajectory{robot.name, 0, {}, {}};
-    for (const TrackedScan& scan : robot.trajectory) {
-      trajectory.frame = static_cast<int>(run.map().island_of(scan.pose.patch).value);
-      trajectory.stamps.push_back(scan.stamp);
-      trajectory.poses.push_back(run.map().project(scan.pose));
-    }
-    trajectories.push_back(std::move(trajectory));
-  }
+std::vector<EvaluatedRelation> true_relations(std::span<const TrueTrack> tracks, std::uint64_t seed) {
   std::vector<EvaluatedRelation> relations;
-  for (const ScanPair& p : choose_true_relations(run.tracks, seed)) {
-    const TrueTrack& a = run.tracks[p.robot_a];
-    const TrueTrack& b = run.tracks[p.robot_b];
+  for (const ScanPair& p : choose_true_relations(tracks, seed)) {
+    const TrueTrack& a = tracks[p.robot_a];
+    const TrueTrack& b = tracks[p.robot_b];
     relations.push_back({a.robot, a.stamps[p.scan_a], b.robot, b.stamps[p.scan_b],
                          a.T_world_robot[p.scan_a].inverse() * b.T_world_robot[p.scan_b]});
   }
-  return relation_error(trajectories, relations, options);
+  return relations;
+}
+
+std::vector<EvaluatedTrajectory> final_trajectories(const Map& map) {
+  std::vector<EvaluatedTrajectory> trajectories;
+  for (const RobotRecord& robot : map.robots()) {
+    EvaluatedTrajectory trajectory{robot.name, 0, {}, {}};
+    for (const TrackedScan& scan : robot.trajectory) {
+      trajectory.frame = static_cast<int>(map.island_of(scan.pose.patch).value);
+      trajectory.stamps.push_back(scan.stamp);
+      trajectory.poses.push_back(map.project(scan.pose));
+    }
+    trajectories.push_back(std::move(trajectory));
+  }
+  return trajectories;
+}
+
+RelationError relation_error(const SimulatedRun& run, std::uint64_t seed, const RelationErrorOptions& options) {
+  return relation_error(final_trajectories(run.map()), true_relations(run.tracks, seed), options);
 }
 
 }  // namespace helicoid

@@ -14,6 +14,7 @@ namespace helicoid {
 struct SimulatedRun {
   Mapper mapper;
   std::vector<TrueTrack> tracks;  ///< by robot; one pose a scan, as map().robot(id).trajectory has them
+  double cpu_s = 0;               ///< thread CPU time of the mapper alone
   [[nodiscard]] const Map& map() const { return mapper.map(); }
   /// Where a patch truly stands: where its robot was when it took the patch's scan.
   [[nodiscard]] const Pose2& T_world_patch(PatchId id) const {
@@ -31,7 +32,11 @@ using SimulationObserver = std::function<void(const SimulatedEvent&, const Step&
                                                   const MapperOptions& mapper = {},
                                                   const SimulationObserver& observer = {});
 
-/// The error of the final poses against the truth, over the relations of choose_true_relations(..., seed).
+/// The truth of the pairs of choose_true_relations.
+[[nodiscard]] std::vector<EvaluatedRelation> true_relations(std::span<const TrueTrack> tracks, std::uint64_t seed);
+/// The map's final poses by robot, each in the frame of the island that its robot ended on.
+[[nodiscard]] std::vector<EvaluatedTrajectory> final_trajectories(const Map& map);
+/// The error of the final poses against the truth, over true_relations(..., seed).
 [[nodiscard]] RelationError relation_error(const SimulatedRun& run, std::uint64_t seed,
                                            const RelationErrorOptions& options = {});
 
