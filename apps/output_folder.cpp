@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array kFolders = {"islands", "sheets", "trajectories", "truth"};
+constexpr std::array kFolders = {"islands", "sheets", "trajectories", "plots", "truth"};
 constexpr std::array kCharts = {"map.png", "map.pgm", "map.yaml", "sketch.svg", "topology.geojson"};
 constexpr std::array kKinds = {".tum", ".png", ".pgm", ".yaml", ".svg", ".geojson"};
 

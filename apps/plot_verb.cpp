@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/chart.hpp"
+#include "apps/output_folder.hpp"
 #include "apps/verb.hpp"
 #include "helicoid/base/whole_file.hpp"
 #include "helicoid/eval/trajectory_error.hpp"
@@ -24,6 +25,8 @@ struct PlotArguments {
   std::string folder;
   std::string out;
   std::string truth;
+  bool force = false;
+  bool json = false;
 };
 
 struct NamedTrajectory {
@@ -177,16 +180,19 @@ int run_verb(const PlotArguments& a) {
   const Result<Map> map = read_map((folder / "map.gpkg").string());
   if (!map) return report_failure(map.error().message);
   const fs::path out = a.out.empty() ? folder / "plots" : fs::path(a.out);
-  std::error_code error;
-  fs::create_directories(out, error);
+  const Result<OutputFolder> place = OutputFolder::open(out.string(), "trajectory.svg", a.force);
+  if (!place) return report_failure(place.error().message);
+  Json paths = Json::array();
   const std::pair<const char*, std::vector<Chart>> pictures[] = {{"trajectory.svg", trajectory_charts(*robots, truths)},
                                                                  {"residuals.svg", residual_charts(*map)},
                                                                  {"time.svg", time_charts(*summary)}};
   for (const auto& [name, charts] : pictures) {
     const std::string path = (out / name).string();
     if (auto done = write_whole_file(path, draw_charts(charts)); !done) return report_failure(done.error().message);
-    fmt::print("picture    {}\n", path);
+    if (!a.json) fmt::print("picture    {}\n", path);
+    paths.push_back(path);
   }
+  if (a.json) fmt::print("{}\n", Json{{"pictures", paths}}.dump(1));
   return kDone;
 }
 
@@ -199,6 +205,8 @@ void add_plot_verb(CLI::App& program, int& exit_code) {
   verb->add_option("--out", a->out, "where to write; default: DIR/plots");
   verb->add_option("--truth", a->truth,
                    "the folder of true trajectories (truth/ of a simulation): draws the error, too");
+  verb->add_flag("--force", a->force, "write into a folder that something else made");
+  verb->add_flag("--json", a->json, "print the pictures' paths as one JSON object");
   verb->footer("Examples:\n  helicoid plot site\n  helicoid plot site --truth sim/truth --out pictures");
   verb->callback([a, &exit_code] { exit_code = run_verb(*a); });
 }

@@ -64,6 +64,8 @@ TEST(Conduct, JsonIsExactlyOneObjectOnStdout) {
       {"info", box / "site/map.gpkg"},
       {"info", sim + "/robot1.clf.gz"},
       {"eval", box / "site", "--relations", sim + "/truth.relations"},
+      {"plot", box / "site"},
+      {"bench", "--filter", "rays", "--repeats", "1"},
       {"eval", box / "site/trajectories/robot1.tum", "--truth", sim + "/truth/robot1.tum"}};
   for (std::vector<std::string> command : commands) {
     command.emplace_back("--json");

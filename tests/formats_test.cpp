@@ -139,6 +139,25 @@ TEST(Formats, DescribesEveryKeyOfInfo) {
   expect_same(keys, documented_keys("info --json"));
 }
 
+TEST(Formats, DescribesEveryKeyOfABenchmark) {
+  Words keys = keys_of(json_of({"bench", "--filter", "rays", "--repeats", "1"}));
+  keys.merge(keys_of(json_of({"bench", "--filter", "intel", "--data", "nowhere"})));
+  expect_same(keys, documented_keys("bench --json"));
+}
+
+TEST(Formats, DescribesEveryKeyOfPlotsAndExperiments) {
+  const Sandbox box;
+  ASSERT_EQ(run({"map", box.simulate("sim") + "/robot1.clf.gz", "--no-charts", "--out", box / "site"}).exit_code, 0);
+  expect_same(keys_of(json_of({"plot", box / "site"})), documented_keys("plot --json"));
+  const Ended ended = run({"experiment", "crispness", "--quick", "--data", "nowhere", "--json", "-"});
+  Words keys;
+  for (std::string key : keys_of(Json::parse(ended.out))) {
+    keys.insert(std::regex_replace(key, std::regex("metrics\\.[a-z_]+"), "metrics.*"));
+  }
+  keys.insert("metrics.*.bar.at_least");  // this experiment has none of that kind
+  expect_same(keys, documented_keys("experiment --json"));
+}
+
 TEST(Formats, DescribesEveryFileOfAMap) {
   const Sandbox box;
   const std::string team = box.simulate("sim", {"--robots", "2"});
