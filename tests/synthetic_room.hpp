@@ -126,6 +126,43 @@ inline Builder pillar_map(int rounds = 1) {
   return builder;
 }
 
+inline Pose2 random_pose(Random& random) {
+  return {random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-3.1, 3.1)};
+}
+
+/// Every second has ranges to the centimetre; now and then one is NaN, infinite or minus zero.
+inline Scan random_scan(Random& random, std::size_t index, const LaserModel& laser) {
+  Scan scan;
+  for (int beam = 0; beam < laser.beams; ++beam) {
+    const bool rounded = index % 2 == 0;
+    const double range = random.uniform(0.5, 12);
+    scan.ranges.push_back(static_cast<float>(rounded ? std::round(range * 100) / 100 : range));
+  }
+  if (index % 7 == 3) scan.ranges[5] = std::numeric_limits<float>::quiet_NaN();
+  if (index % 7 == 4) scan.ranges[6] = std::numeric_limits<float>::infinity();
+  if (index % 7 == 5) scan.ranges[7] = -0.0F;
+  scan.T_odom_robot = random_pose(random);
+  scan.T_robot_laser = {-0.04, 0, -0.0};
+  scan.has_odometry = index % 5 != 0;
+  return scan;
+}
+
+inline Relation random_relation(Random& random, std::size_t patches) {
+  Relation relation;
+  const auto a = static_cast<std::uint32_t>(random.below(patches - 1));
+  relation.a = PatchId{a};
+  relation.b = PatchId{a + 1 + static_cast<std::uint32_t>(random.below(patches - a - 1))};
+  relation.kind = static_cast<RelationKind>(random.below(5));
+  Vector5d g;
+  for (int k = 0; k < 5; ++k) g[k] = random.normal();
+  for (int k = 0; k < 3; ++k) relation.form.add(g, random.uniform(0, 1e4));
+  relation.T_a_b = random_pose(random);
+  relation.c_min = random.uniform();
+  relation.radius = random.uniform();
+  relation.correspondences = static_cast<int>(random.below(180));
+  return relation;
+}
+
 /// A map of random content, for what must survive whatever the numbers are: odd values are among them.
 inline Map random_map(std::uint64_t seed, std::size_t patches, std::size_t scans, std::size_t relations) {
   Random random(seed);
@@ -134,43 +171,18 @@ inline Map random_map(std::uint64_t seed, std::size_t patches, std::size_t scans
   const LaserModel laser = test_laser(180);
   const RobotId robots[] = {editor.add_robot("north", {laser}), editor.add_robot("south", {laser, test_laser(361)})};
   const IslandId islands[] = {editor.add_island(), editor.add_island(), editor.add_island()};
-  const auto pose = [&] { return Pose2{random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-3.1, 3.1)}; };
   for (std::size_t i = 0; i < patches; ++i) {
-    Scan scan;
-    for (int beam = 0; beam < laser.beams; ++beam) {
-      const bool rounded = i % 2 == 0;
-      const double range = random.uniform(0.5, 12);
-      scan.ranges.push_back(static_cast<float>(rounded ? std::round(range * 100) / 100 : range));
-    }
-    if (i % 7 == 3) scan.ranges[5] = std::numeric_limits<float>::quiet_NaN();
-    if (i % 7 == 4) scan.ranges[6] = std::numeric_limits<float>::infinity();
-    if (i % 7 == 5) scan.ranges[7] = -0.0F;
-    scan.T_odom_robot = pose();
-    scan.T_robot_laser = {-0.04, 0, -0.0};
-    scan.has_odometry = i % 5 != 0;
-    const auto id = make_id<PatchId>(i);
-    editor.add_patch(make_patch(id, robots[i % 2], i, 1e9 + random.uniform(), scan, laser), pose(), islands[i % 2 * 2]);
+    const Scan scan = random_scan(random, i, laser);
+    const double stamp = 1e9 + random.uniform();
+    editor.add_patch(make_patch(make_id<PatchId>(i), robots[i % 2], i, stamp, scan, laser), random_pose(random),
+                     islands[i % 2 * 2]);
   }
-  for (std::size_t i = 0; i < relations && patches > 1; ++i) {
-    Relation relation;
-    const auto a = static_cast<std::uint32_t>(random.below(patches - 1));
-    relation.a = PatchId{a};
-    relation.b = PatchId{a + 1 + static_cast<std::uint32_t>(random.below(patches - a - 1))};
-    relation.kind = static_cast<RelationKind>(random.below(5));
-    Vector5d g;
-    for (int k = 0; k < 5; ++k) g[k] = random.normal();
-    for (int k = 0; k < 3; ++k) relation.form.add(g, random.uniform(0, 1e4));
-    relation.T_a_b = pose();
-    relation.c_min = random.uniform();
-    relation.radius = random.uniform();
-    relation.correspondences = static_cast<int>(random.below(180));
-    editor.add_relation(relation);
-  }
+  for (std::size_t i = 0; i < relations && patches > 1; ++i) editor.add_relation(random_relation(random, patches));
   for (std::size_t i = 0; i < scans && patches > 0; ++i) {
-    TrackedScan scan{random.uniform(0, 3e3),
-                     {PatchId{static_cast<std::uint32_t>(random.below(patches))}, pose()},
-                     pose(),
-                     Matrix3d::Identity() * random.uniform()};
+    const PatchId patch{static_cast<std::uint32_t>(random.below(patches))};
+    const double stamp = random.uniform(0, 3e3);
+    const Pose2 T_patch_robot = random_pose(random);
+    TrackedScan scan{stamp, {patch, T_patch_robot}, random_pose(random), Matrix3d::Identity() * random.uniform()};
     if (i % 3 == 0) scan.covariance(0, 1) = random.uniform();
     editor.append_scan(robots[random.below(2)], scan);
   }

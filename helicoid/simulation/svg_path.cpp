@@ -3,6 +3,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <span>
 
 namespace helicoid {
 
@@ -59,6 +60,33 @@ std::size_t arguments(char command) {
   }
 }
 
+/// Draws a path's commands.
+struct PathPen {
+  std::vector<SvgLine> lines;
+  Vector2d at = Vector2d::Zero();
+
+  void close() {
+    if (lines.empty() || lines.back().points.empty()) return;
+    lines.back().closed = true;
+    at = lines.back().points.front();
+  }
+  /// The end points of curves stand for the curves.
+  void draw(char command, std::span<const double> v) {
+    const bool relative = std::islower(static_cast<unsigned char>(command)) != 0;
+    const Vector2d base = relative ? at : Vector2d::Zero();
+    const int kind = std::tolower(command);
+    if (kind == 'h') {
+      at.x() = base.x() + v[0];
+    } else if (kind == 'v') {
+      at.y() = base.y() + v[0];
+    } else {
+      at = base + Vector2d(v[v.size() - 2], v[v.size() - 1]);
+    }
+    if (kind == 'm' || lines.empty() || lines.back().closed) lines.emplace_back();
+    lines.back().points.push_back(at);
+  }
+};
+
 }  // namespace
 
 SvgTransform SvgTransform::then_inner(const SvgTransform& inner) const {
@@ -89,8 +117,7 @@ SvgTransform svg_transform(std::string_view text) {
 }
 
 std::vector<SvgLine> svg_path(std::string_view text) {
-  std::vector<SvgLine> lines;
-  Vector2d at = Vector2d::Zero();
+  PathPen pen;
   char command = 0;
   while (!text.empty()) {
     if (is_separator(text.front())) {
@@ -101,38 +128,22 @@ std::vector<SvgLine> svg_path(std::string_view text) {
       command = text.front();
       text.remove_prefix(1);
       if (command == 'Z' || command == 'z') {
-        if (!lines.empty() && !lines.back().points.empty()) {
-          lines.back().closed = true;
-          at = lines.back().points.front();
-        }
+        pen.close();
         continue;
       }
     }
     double v[7] = {};
     const std::size_t count = arguments(command);
     for (std::size_t i = 0; i < count; ++i) {
-      if (!take_number(text, v[i])) return lines;
+      if (!take_number(text, v[i])) return pen.lines;
     }
-    if (count == 0) return lines;
-    const bool relative = std::islower(static_cast<unsigned char>(command)) != 0;
-    const Vector2d base = relative ? at : Vector2d::Zero();
-    const int kind = std::tolower(command);
-    if (kind == 'h') {
-      at.x() = base.x() + v[0];
-    } else if (kind == 'v') {
-      at.y() = base.y() + v[0];
-    } else {
-      at = base + Vector2d(v[count - 2], v[count - 1]);
-    }
-    if (kind == 'm') {
-      lines.emplace_back();
-      command = relative ? 'l' : 'L';  // more points after a move are lines
-    } else if (lines.empty() || lines.back().closed) {
-      lines.emplace_back();
-    }
-    lines.back().points.push_back(at);
+    if (count == 0) return pen.lines;
+    pen.draw(command, {v, count});
+    // More points after a move are lines.
+    if (command == 'M') command = 'L';
+    if (command == 'm') command = 'l';
   }
-  return lines;
+  return pen.lines;
 }
 
 }  // namespace helicoid
