@@ -70,7 +70,7 @@ double thread_cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Result<MapRun> run_map(MapJob job) {
+Result<MapRun> run_map(const MapJob& job) {
   const InterruptGuard guard;
   const double start = thread_cpu_seconds();
   const auto began = std::chrono::steady_clock::now();

@@ -45,7 +45,7 @@ struct MapRun {
 };
 
 /// Reads, maps and fits. Ctrl-C ends the reading; what was mapped until then is kept.
-[[nodiscard]] Result<MapRun> run_map(MapJob job);
+[[nodiscard]] Result<MapRun> run_map(const MapJob& job);
 
 /// CPU seconds of this thread so far.
 [[nodiscard]] double thread_cpu_seconds();

@@ -114,7 +114,7 @@ int run_verb(const MapArguments& a) {
   job.from = a.from;
   job.to = a.to;
   job.progress = [&bar](double share) { bar.show(share, "mapping"); };
-  Result<MapRun> run = run_map(std::move(job));
+  Result<MapRun> run = run_map(job);
   if (!run) return report_failure(run.error().message);
   folder->clear_old_results();
   return finish(*run, a);

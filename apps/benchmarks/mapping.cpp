@@ -74,7 +74,7 @@ Result<BenchRow> map_recorded(const std::string& name, const std::string& log, c
   for (int i = 0; i < options.repeats; ++i) {
     MapJob job;
     job.robots = robots;
-    const Result<MapRun> run = run_map(std::move(job));
+    const Result<MapRun> run = run_map(job);
     if (!run) return tl::unexpected(run.error());
     const auto scans = static_cast<double>(run->scans);
     const double us = 1e6 * (run->phase.read + run->phase.match + run->phase.fit) / scans;

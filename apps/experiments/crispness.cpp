@@ -50,7 +50,7 @@ ExperimentCase recorded(const std::string& name, const std::string& data) {
   c.run = [name, log](std::uint64_t) -> Result<Outcome> {
     MapJob job;
     job.robots = {{name, {log}}};
-    const Result<MapRun> run = run_map(std::move(job));
+    const Result<MapRun> run = run_map(job);
     if (!run) return tl::unexpected(run.error());
     return measure(run->mapper.map());
   };

@@ -20,7 +20,6 @@ namespace {
 
 using store::BlobWriter;
 using store::Database;
-using store::Extent;
 using store::Statement;
 
 void write_facts(Database& db, const Map& map) {
