@@ -4,6 +4,8 @@
 #include <csignal>
 #include <ctime>
 
+#include "helicoid/io/laser_file.hpp"
+
 namespace helicoid {
 
 namespace {

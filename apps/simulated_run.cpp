@@ -1,7 +1,7 @@
 #include "apps/simulated_run.hpp"
 
 #include "apps/map_run.hpp"
-#include "helicoid/io/laser_recognition.hpp"
+#include "helicoid/io/laser_file.hpp"
 
 namespace helicoid {
 

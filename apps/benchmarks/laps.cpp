@@ -10,7 +10,7 @@
 
 #include "apps/bench.hpp"
 #include "apps/simulated_run.hpp"
-#include "helicoid/io/laser_recognition.hpp"
+#include "helicoid/io/laser_file.hpp"
 
 namespace helicoid {
 

@@ -9,12 +9,33 @@ namespace helicoid {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Bounds the memory of a grid over a world that is spread wide.
+constexpr double kMostCellsASide = 500;
 
 double point_distance(const Vector2d& p, const Segment& s) {
   const Vector2d along = s.to - s.from;
   const double square = along.squaredNorm();
   const double at = square > 0 ? std::clamp((p - s.from).dot(along) / square, 0.0, 1.0) : 0;
   return (p - s.from - at * along).norm();
+}
+
+/// Where along a ray it enters and leaves the box from the origin to `extent`; enter > leave if it misses.
+struct Crossing {
+  double enter, leave;
+};
+Crossing crossing(const Vector2d& from, const Vector2d& direction, const Vector2d& extent, double reach) {
+  Crossing c{0, reach};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (direction[axis] == 0) {
+      if (from[axis] < 0 || from[axis] > extent[axis]) return {kInfinity, 0};
+      continue;
+    }
+    const double a = -from[axis] / direction[axis];
+    const double b = (extent[axis] - from[axis]) / direction[axis];
+    c.enter = std::max(c.enter, std::min(a, b));
+    c.leave = std::min(c.leave, std::max(a, b));
+  }
+  return c;
 }
 
 }  // namespace
@@ -31,19 +52,24 @@ double intersect(const Vector2d& origin, const Vector2d& direction, const Segmen
 
 RayCaster::RayCaster(std::span<const Segment> segments, double cell)
     : segments_(segments.begin(), segments.end()), cell_(cell) {
-  if (segments_.empty()) {
-    start_ = {0, 0};
-    return;
-  }
+  if (!segments_.empty()) lay_grid();
+  sort_into_cells();
+}
+
+void RayCaster::lay_grid() {
   Vector2d low = segments_.front().from;
   Vector2d high = low;
   for (const Segment& s : segments_) {
     low = low.cwiseMin(s.from).cwiseMin(s.to);
     high = high.cwiseMax(s.from).cwiseMax(s.to);
   }
+  cell_ = std::max(cell_, (high - low).maxCoeff() / kMostCellsASide);
   origin_ = low - Vector2d::Constant(0.5 * cell_);
   columns_ = static_cast<int>((high.x() - origin_.x()) / cell_) + 2;
   rows_ = static_cast<int>((high.y() - origin_.y()) / cell_) + 2;
+}
+
+void RayCaster::sort_into_cells() {
   // Every cell that the segment's bounding box touches and that lies near the segment itself.
   std::vector<std::vector<int>> cells(static_cast<std::size_t>(columns_) * rows_);
   for (std::size_t i = 0; i < segments_.size(); ++i) {
@@ -74,25 +100,11 @@ std::span<const int> RayCaster::in_cell(int column, int row) const {
 RayCaster::Hit RayCaster::cast(const Vector2d& origin, const Vector2d& direction, double reach) const {
   Hit hit{kInfinity, -1};
   if (segments_.empty()) return hit;
-  // Where the ray enters the grid.
-  const Vector2d extent(columns_ * cell_, rows_ * cell_);
-  double enter = 0;
-  double leave = reach;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double from = origin_[axis] - origin[axis];
-    const double to = from + extent[axis];
-    if (direction[axis] == 0) {
-      if (from > 0 || to < 0) return hit;
-      continue;
-    }
-    const double a = from / direction[axis];
-    const double b = to / direction[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
+  const auto [enter, leave] = crossing(origin - origin_, direction, Vector2d(columns_ * cell_, rows_ * cell_), reach);
   if (enter > leave) return hit;
   const Vector2d at = (origin + enter * direction - origin_) / cell_;
-  int cell[2] = {std::clamp(static_cast<int>(at.x()), 0, columns_ - 1), std::clamp(static_cast<int>(at.y()), 0, rows_ - 1)};
+  int cell[2] = {std::clamp(static_cast<int>(at.x()), 0, columns_ - 1),
+                 std::clamp(static_cast<int>(at.y()), 0, rows_ - 1)};
   const int count[2] = {columns_, rows_};
   int step[2] = {0, 0};
   double next[2] = {kInfinity, kInfinity};
@@ -123,7 +135,8 @@ double RayCaster::clearance(const Vector2d& point, double reach) const {
   double best = kInfinity;
   const Vector2d low = (point - Vector2d::Constant(reach) - origin_) / cell_;
   const Vector2d high = (point + Vector2d::Constant(reach) - origin_) / cell_;
-  for (int row = std::max(0, static_cast<int>(std::floor(low.y()))); row <= std::min(rows_ - 1, static_cast<int>(high.y())); ++row) {
+  for (int row = std::max(0, static_cast<int>(std::floor(low.y())));
+       row <= std::min(rows_ - 1, static_cast<int>(high.y())); ++row) {
     for (int column = std::max(0, static_cast<int>(std::floor(low.x())));
          column <= std::min(columns_ - 1, static_cast<int>(high.x())); ++column) {
       for (const int i : in_cell(column, row)) best = std::min(best, point_distance(point, segments_[i]));

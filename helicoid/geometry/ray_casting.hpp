@@ -15,13 +15,14 @@ struct Segment {
 /// The smallest distance along a ray at which it meets a segment, or infinity. `direction` is a unit vector.
 [[nodiscard]] double intersect(const Vector2d& origin, const Vector2d& direction, const Segment& segment);
 
-/// Segments sorted into square cells; immutable.
+/// Segments sorted into square cells; immutable. Coordinates are finite.
 class RayCaster {
  public:
+  /// Cells of `cell` metres, or larger where the segments spread so far that there would be too many.
   explicit RayCaster(std::span<const Segment> segments, double cell = 1.0);
 
   struct Hit {
-    double distance = 0;   ///< metres; infinity if nothing within reach
+    double distance = 0;  ///< metres; infinity if nothing within reach
     int segment = -1;
   };
   /// The first segment that a ray meets within `reach` metres.
@@ -31,6 +32,8 @@ class RayCaster {
   [[nodiscard]] std::span<const Segment> segments() const { return segments_; }
 
  private:
+  void lay_grid();
+  void sort_into_cells();
   [[nodiscard]] std::span<const int> in_cell(int column, int row) const;
   std::vector<Segment> segments_;
   double cell_;

@@ -253,6 +253,8 @@ const Event* CarmenReader::skip(const char* reason, std::string_view what) {
   return nullptr;
 }
 
-std::string CarmenReader::place() const { return fmt::format("{}:{}", files_[file_].name, line_number_); }
+std::string CarmenReader::place() const {
+  return fmt::format("{}:{}", files_[file_].name, line_number_);
+}
 
 }  // namespace helicoid

@@ -20,10 +20,9 @@ std::string to_g2o(const Map& map) {
   for (const Relation& r : map.relations()) {
     const PairExpansion e = expand(r.form, r.T_a_b);
     const Matrix3d I = e.information / information_divisor(map, r);
-    fmt::format_to(out,
-                   FMT_COMPILE("EDGE_SE2 {} {} {:.6f} {:.6f} {:.8f} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}\n"),
-                   r.a.value, r.b.value, r.T_a_b.x, r.T_a_b.y, r.T_a_b.yaw, I(0, 0), I(0, 1), I(0, 2), I(1, 1),
-                   I(1, 2), I(2, 2));
+    fmt::format_to(out, FMT_COMPILE("EDGE_SE2 {} {} {:.6f} {:.6f} {:.8f} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}\n"),
+                   r.a.value, r.b.value, r.T_a_b.x, r.T_a_b.y, r.T_a_b.yaw, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2),
+                   I(2, 2));
   }
   return text;
 }

@@ -1,13 +1,13 @@
 #include "helicoid/io/laser_recognition.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "helicoid/geometry/pose2.hpp"
-#include "helicoid/io/number.hpp"
-#include "helicoid/io/text_file.hpp"
 
 namespace helicoid {
 
@@ -44,8 +44,8 @@ float find_no_return(std::span<const float> ranges) {
     if (std::isfinite(r)) largest = std::max(largest, r);
   }
   const auto same = std::count(ranges.begin(), ranges.end(), largest);
-  const auto near = std::count_if(ranges.begin(), ranges.end(),
-                                  [=](float r) { return r < largest && r > 0.98F * largest; });
+  const auto near =
+      std::count_if(ranges.begin(), ranges.end(), [=](float r) { return r < largest && r > 0.98F * largest; });
   return same >= 5 && same > 2 * near ? largest : 0;
 }
 
@@ -79,51 +79,27 @@ LaserModel recognise_laser(const BeamLayout& layout, std::span<const float> rang
   return laser;
 }
 
-Result<LaserModel> load_laser(const std::string& name_or_file, const LaserModel& recognised) {
+bool is_shipped_laser(const std::string& name) {
+  return name == kGeneric.key ||
+         std::any_of(std::begin(kSheets), std::end(kSheets), [&](const DataSheet& sheet) { return name == sheet.key; });
+}
+
+LaserModel shipped_laser(const std::string& name, const LaserModel& recognised) {
   LaserModel laser = recognised;
-  std::string names;
+  if (name == kGeneric.key) apply(kGeneric, laser);
   for (const DataSheet& sheet : kSheets) {
-    if (name_or_file == sheet.key) {
-      apply(sheet, laser);
-      laser.max_range = sheet.max_range;
-      return laser;
-    }
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", sheet.key);
-  }
-  if (name_or_file == kGeneric.key) {
-    apply(kGeneric, laser);
-    return laser;
-  }
-  const Result<TextFile> file = read_text_file(name_or_file);
-  if (!file) return fail("{}: is no known laser ({}, generic) and no file that can be read", name_or_file, names);
-  laser.name = name_or_file;
-  const std::pair<std::string_view, double*> keys[] = {
-      {"max_range", &laser.max_range},           {"min_range", &laser.min_range},
-      {"range_sigma", &laser.range_sigma},       {"kappa", &laser.kappa},
-      {"floor_position", &laser.floor_position}, {"floor_heading", &laser.floor_heading},
-      {"largest_gap", &laser.largest_gap}};
-  std::size_t line_number = 0;
-  for (std::size_t begin = 0; begin < file->text.size();) {
-    ++line_number;
-    const std::size_t end = std::min(file->text.find('\n', begin), file->text.size());
-    const std::string_view line(file->text.data() + begin, end - begin);
-    begin = end + 1;
-    const std::size_t colon = line.find(':');
-    if (line.empty() || line[0] == '#') continue;
-    const std::string_view key = line.substr(0, std::min(colon, line.size()));
-    const auto* known = std::find_if(std::begin(keys), std::end(keys), [&](const auto& k) { return k.first == key; });
-    if (colon == std::string_view::npos || known == std::end(keys)) {
-      return fail("{}:{}: \"{}\" is no key of a laser; keys are max_range, min_range, range_sigma, kappa, floor_position, "
-                  "floor_heading, largest_gap", name_or_file, line_number, line);
-    }
-    TextCursor cursor{line.data() + colon + 1, line.data() + line.size()};
-    const ReadNumber number = read_number(cursor);
-    if (!number.ok || !(number.value > 0) || !std::isfinite(number.value)) {
-      return fail("{}:{}: {} needs a number above 0", name_or_file, line_number, key);
-    }
-    *known->second = number.value;
+    if (name != sheet.key) continue;
+    apply(sheet, laser);
+    laser.max_range = sheet.max_range;
   }
   return laser;
+}
+
+std::vector<std::string> shipped_lasers() {
+  std::vector<std::string> names;
+  for (const DataSheet& sheet : kSheets) names.emplace_back(sheet.key);
+  names.emplace_back(kGeneric.key);
+  return names;
 }
 
 std::string describe(const LaserModel& laser) {

@@ -1,10 +1,10 @@
-// Which laser took a log: recognised from the data, or named by the user.
+// Which laser took a log: recognised from the data, or taken from a shipped data sheet.
 #pragma once
 
 #include <span>
 #include <string>
+#include <vector>
 
-#include "helicoid/base/result.hpp"
 #include "helicoid/sensor/laser_model.hpp"
 
 namespace helicoid {
@@ -25,10 +25,11 @@ struct BeamLayout {
 /// "no return". A known laser brings its data sheet's noise, an unknown one a cautious guess.
 [[nodiscard]] LaserModel recognise_laser(const BeamLayout& layout, std::span<const float> ranges);
 
-/// A shipped model by name ("sick-lms200", "hokuyo-urg", "hokuyo-utm30lx", "generic"), or a text file of `key: value` lines
-/// (max_range, min_range, range_sigma, kappa, floor_position, floor_heading, largest_gap; metres and radians), laid
-/// over the recognised one.
-[[nodiscard]] Result<LaserModel> load_laser(const std::string& name_or_file, const LaserModel& recognised);
+/// The names of the shipped data sheets: "sick-lms200", "hokuyo-urg", ..., "generic".
+[[nodiscard]] std::vector<std::string> shipped_lasers();
+[[nodiscard]] bool is_shipped_laser(const std::string& name);
+/// The recognised laser with the noise and the limits of a shipped data sheet.
+[[nodiscard]] LaserModel shipped_laser(const std::string& name, const LaserModel& recognised);
 
 /// One line for people: "SICK LMS200: 180 beams over 179 deg, 1 deg apart, no return from 81.83 m".
 [[nodiscard]] std::string describe(const LaserModel& laser);

@@ -48,7 +48,9 @@ Result<std::string> read_bytes(const std::string& path) {
   return bytes;
 }
 
-bool is_gzip(const std::string& bytes) { return bytes.size() > 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b'; }
+bool is_gzip(const std::string& bytes) {
+  return bytes.size() > 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b';
+}
 
 /// All at once, if the archive is one whole member of the size that it states.
 bool inflate_whole(const std::string& bytes, std::string& text) {
@@ -102,20 +104,24 @@ std::string inflate_pieces(const std::string& bytes, std::string& text) {
 
 }  // namespace
 
-Result<TextFile> read_text_file(const std::string& path) {
-  Result<std::string> bytes = read_bytes(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  TextFile file{path == "-" ? "stdin" : path, {}, {}};
-  if (!is_gzip(*bytes)) {
-    file.text = std::move(*bytes);
-  } else if (!inflate_whole(*bytes, file.text)) {
-    file.warning = inflate_pieces(*bytes, file.text);
+TextFile text_of_bytes(std::string bytes, const std::string& name) {
+  TextFile file{name, {}, {}};
+  if (!is_gzip(bytes)) {
+    file.text = std::move(bytes);
+  } else if (!inflate_whole(bytes, file.text)) {
+    file.warning = inflate_pieces(bytes, file.text);
     if (!file.warning.empty()) {
       file.warning = fmt::format("{}: {} after {} bytes of text; what was there is used", file.name, file.warning,
                                  file.text.size());
     }
   }
   return file;
+}
+
+Result<TextFile> read_text_file(const std::string& path) {
+  Result<std::string> bytes = read_bytes(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return text_of_bytes(std::move(*bytes), path == "-" ? "stdin" : path);
 }
 
 bool looks_binary(const std::string& text) {

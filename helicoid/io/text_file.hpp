@@ -17,6 +17,9 @@ struct TextFile {
 /// damaged archive gives what could be inflated and a warning. Errors: a directory, no such file, no permission.
 [[nodiscard]] Result<TextFile> read_text_file(const std::string& path);
 
+/// The same of bytes that were read elsewhere; `name` is what messages call them.
+[[nodiscard]] TextFile text_of_bytes(std::string bytes, const std::string& name);
+
 /// True if the bytes cannot be a text: a zero byte among the first thousand.
 [[nodiscard]] bool looks_binary(const std::string& text);
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "helicoid/io/number.hpp"
 #include "helicoid/io/text_file.hpp"
@@ -14,6 +15,11 @@ namespace {
 
 /// A number in units of 1e-6 as a decimal, without the cost of general formatting.
 void append_micro(std::string& text, double value) {
+  // Beyond that a 64-bit integer holds no microns; NaN comes this way too.
+  if (!(std::abs(value) < 9e12)) {
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{:.6f}"), value);
+    return;
+  }
   const auto micro = static_cast<std::int64_t>(std::llround(value * 1e6));
   const auto magnitude = static_cast<std::uint64_t>(micro < 0 ? -micro : micro);
   if (micro < 0) text += '-';
@@ -23,6 +29,13 @@ void append_micro(std::string& text, double value) {
     decimals[i] = static_cast<char>('0' + rest % 10);
   }
   text.append(decimals, 7);
+}
+
+/// The yaw of a quaternion of any length; none if it is so long or short that it has no direction.
+std::optional<double> yaw_of(double qx, double qy, double qz, double qw) {
+  const double square = qx * qx + qy * qy + qz * qz + qw * qw;
+  if (!(square > 1e-12 && square < 1e12)) return std::nullopt;
+  return wrap_angle(std::atan2(2 * (qw * qz + qx * qy), square - 2 * (qy * qy + qz * qz)));
 }
 
 }  // namespace
@@ -63,14 +76,12 @@ TumFile parse_tum(const std::string& text, const std::string& name) {
       ok = ok && number.ok && std::isfinite(number.value);
       value = number.value;
     }
-    if (!ok) {
+    const std::optional<double> yaw = yaw_of(values[4], values[5], values[6], values[7]);
+    if (!ok || !yaw) {
       skipped.add("line without the eight numbers of a pose", [&] { return fmt::format("{}:{}", name, line_number); });
       continue;
     }
-    // The yaw of the quaternion (qx, qy, qz, qw).
-    const double yaw = std::atan2(2 * (values[7] * values[6] + values[4] * values[5]),
-                                  1 - 2 * (values[5] * values[5] + values[6] * values[6]));
-    file.poses.push_back({values[0], {values[1], values[2], wrap_angle(yaw)}});
+    file.poses.push_back({values[0], {values[1], values[2], *yaw}});
   }
   file.skipped = skipped.all();
   return file;

@@ -21,6 +21,8 @@ struct LaserModel {
   double floor_heading = 0.0017;  ///< the same, of the heading: radians
   /// Beams farther apart than this do not vouch for the space between them; metres.
   double largest_gap = 0.25;
+  /// From the first beam to the last, seconds; 0: the sweep is taken as one moment (see deskew.hpp).
+  double scan_duration = 0;
 
   [[nodiscard]] double bearing(int beam) const { return first_bearing + beam * bearing_step; }
   /// first to last beam, radians

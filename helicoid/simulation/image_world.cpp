@@ -1,5 +1,6 @@
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -42,9 +43,11 @@ Result<GreyImage> read_pgm(const std::string& bytes, const std::string& path) {
       image.height > kLargestSide || values[2] != 255) {
     return fail("{}: must be a binary PGM (P5) with 255 grey levels and sides up to {} pixels", path, kLargestSide);
   }
-  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
-  stream.read(reinterpret_cast<char*>(image.pixels.data()), static_cast<std::streamsize>(image.pixels.size()));
-  if (stream.gcount() != static_cast<std::streamsize>(image.pixels.size())) return fail("{}: is cut off", path);
+  const auto begin = static_cast<std::size_t>(std::max<std::streamoff>(0, stream.tellg()));
+  const auto count = static_cast<std::size_t>(image.width) * image.height;
+  if (begin + count > bytes.size()) return fail("{}: is cut off", path);
+  image.pixels.assign(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(begin + count));
   return image;
 }
 
@@ -54,11 +57,13 @@ Result<GreyImage> read_png(const std::string& bytes, const std::string& path) {
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) return fail("{}: {}", path, png.message);
   png.format = PNG_FORMAT_GRAY;
   GreyImage image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
-  if (image.width > kLargestSide || image.height > kLargestSide) {
+  const auto count = static_cast<std::size_t>(png.width) * png.height;
+  // Deflate cannot do better than about 1 : 1032, nor a pixel with less than a bit: what claims more is damaged.
+  if (png.width > kLargestSide || png.height > kLargestSide || count / 9000 > bytes.size()) {
     png_image_free(&png);
-    return fail("{}: is larger than {} pixels a side", path, kLargestSide);
+    return fail("{}: is damaged, or larger than {} pixels a side", path, kLargestSide);
   }
-  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
+  image.pixels.resize(count);
   const png_color white{255, 255, 255};
   if (png_image_finish_read(&png, &white, image.pixels.data(), 0, nullptr) == 0)
     return fail("{}: {}", path, png.message);
@@ -84,6 +89,23 @@ std::map<std::string, std::string> read_keys(const std::string& text) {
     keys[line.substr(0, colon)] = value;
   }
   return keys;
+}
+
+double number_or(const std::map<std::string, std::string>& keys, const std::string& key, double otherwise) {
+  return keys.contains(key) ? std::atof(keys.at(key).c_str()) : otherwise;
+}
+
+/// 1 where the image shows free floor; row 0 at the bottom.
+std::vector<std::uint8_t> free_cells(const GreyImage& image, double free_below, bool negate) {
+  std::vector<std::uint8_t> free(image.pixels.size());
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const double grey = image.pixels[static_cast<std::size_t>(row) * image.width + column] / 255.0;
+      const double occupied = negate ? grey : 1 - grey;
+      free[static_cast<std::size_t>(image.height - 1 - row) * image.width + column] = occupied < free_below ? 1 : 0;
+    }
+  }
+  return free;
 }
 
 /// Borders between free and solid cells, collinear neighbours as one segment. `across`: rows (horizontal borders) or
@@ -113,40 +135,41 @@ void add_borders(const std::vector<std::uint8_t>& free, int width, int height, b
 
 }  // namespace
 
-Result<World> read_image_world(const std::string& yaml_path) {
-  const auto keys = read_keys(read_bytes(yaml_path));
-  const auto get = [&](const char* key) { return keys.contains(key) ? keys.at(key) : std::string(); };
-  const double resolution = std::atof(get("resolution").c_str());
-  if (get("image").empty() || !(resolution > 0)) {
-    return fail("{}: needs the keys `image` and `resolution`, as ROS map_server writes them", yaml_path);
-  }
-  const std::string image_name = get("image");
-  const std::string image_path =
-      image_name[0] == '/' ? image_name : yaml_path.substr(0, yaml_path.find_last_of('/') + 1) + image_name;
-  const std::string bytes = read_bytes(image_path);
-  if (bytes.empty()) return fail("{}: the image {} cannot be read", yaml_path, image_path);
-  const bool png = bytes.size() > 4 && std::memcmp(bytes.data() + 1, "PNG", 3) == 0;
-  const Result<GreyImage> image = png ? read_png(bytes, image_path) : read_pgm(bytes, image_path);
+Result<World> parse_image_world(const std::string& yaml, const std::string& image_bytes, const std::string& name) {
+  const auto keys = read_keys(yaml);
+  const double resolution = number_or(keys, "resolution", 0);
+  if (!(resolution > 0)) return fail("{}: needs the key `resolution`, metres a pixel", name);
+  const bool png = image_bytes.size() > 4 && std::memcmp(image_bytes.data() + 1, "PNG", 3) == 0;
+  const Result<GreyImage> image = png ? read_png(image_bytes, name) : read_pgm(image_bytes, name);
   if (!image) return tl::unexpected(image.error());
-  const double free_below = keys.contains("free_thresh") ? std::atof(get("free_thresh").c_str()) : 0.196;
-  const bool negate = get("negate") == "1";
   double origin[3] = {};
-  if (std::sscanf(get("origin").c_str(), "[%lf , %lf , %lf", &origin[0], &origin[1], &origin[2]) < 2) origin[0] = 0;
-  std::vector<std::uint8_t> free(image->pixels.size());
-  for (int row = 0; row < image->height; ++row) {
-    for (int column = 0; column < image->width; ++column) {
-      const double grey = image->pixels[static_cast<std::size_t>(row) * image->width + column] / 255.0;
-      const double occupied = negate ? grey : 1 - grey;
-      free[static_cast<std::size_t>(image->height - 1 - row) * image->width + column] = occupied < free_below ? 1 : 0;
-    }
+  if (keys.contains("origin") &&
+      std::sscanf(keys.at("origin").c_str(), "[%lf , %lf , %lf", &origin[0], &origin[1], &origin[2]) < 2) {
+    return fail("{}: its origin must be [x, y, yaw]", name);
   }
+  const std::vector<std::uint8_t> free =
+      free_cells(*image, number_or(keys, "free_thresh", 0.196), number_or(keys, "negate", 0) != 0);
   World world;
-  world.name = yaml_path;
+  world.name = name;
   const Vector2d lower_left(origin[0], origin[1]);
   add_borders(free, image->width, image->height, true, resolution, lower_left, world.walls);
   add_borders(free, image->width, image->height, false, resolution, lower_left, world.walls);
-  if (world.walls.empty()) return fail("{}: the image holds no free cell beside a solid one", yaml_path);
+  if (world.walls.empty()) return fail("{}: the image holds no free cell beside a solid one", name);
+  if (const Result<void> checked = check_size(world); !checked) return tl::unexpected(checked.error());
   return world;
+}
+
+Result<World> read_image_world(const std::string& yaml_path) {
+  const std::string yaml = read_bytes(yaml_path);
+  const auto keys = read_keys(yaml);
+  if (!keys.contains("image") || keys.at("image").empty()) {
+    return fail("{}: needs the keys `image` and `resolution`, as ROS map_server writes them", yaml_path);
+  }
+  const std::string& image = keys.at("image");
+  const std::string image_path = image[0] == '/' ? image : yaml_path.substr(0, yaml_path.find_last_of('/') + 1) + image;
+  const std::string bytes = read_bytes(image_path);
+  if (bytes.empty()) return fail("{}: the image {} cannot be read", yaml_path, image_path);
+  return parse_image_world(yaml, bytes, yaml_path);
 }
 
 }  // namespace helicoid

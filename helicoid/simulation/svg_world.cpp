@@ -96,12 +96,18 @@ void add_element(const pugi::xml_node& element, const SvgTransform& transform, W
   }
 }
 
-void walk(const pugi::xml_node& node, const SvgTransform& outer, World& world) {
+/// No drawing nests deeper; a file made to exhaust the stack does.
+constexpr int kDeepest = 200;
+
+/// False if the elements nest too deep.
+bool walk(const pugi::xml_node& node, const SvgTransform& outer, int depth, World& world) {
+  if (depth > kDeepest) return false;
   for (const pugi::xml_node& child : node.children()) {
     const SvgTransform transform = outer.then_inner(svg_transform(child.attribute("transform").as_string()));
     add_element(child, transform, world);
-    walk(child, transform, world);
+    if (!walk(child, transform, depth + 1, world)) return false;
   }
+  return true;
 }
 
 }  // namespace
@@ -112,10 +118,11 @@ Result<World> parse_svg_world(const std::string& svg, const std::string& name) {
   if (!parsed) return fail("{}: is no SVG: {} at byte {}", name, parsed.description(), parsed.offset);
   World world;
   world.name = name;
-  walk(document, {}, world);
+  if (!walk(document, {}, 0, world)) return fail("{}: has more than {} groups inside one another", name, kDeepest);
   if (world.walls.empty()) {
     return fail("{}: has no element of class \"wall\"; mark what stops a robot with class=\"wall\"", name);
   }
+  if (const Result<void> checked = check_size(world); !checked) return tl::unexpected(checked.error());
   return world;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -27,6 +29,19 @@ Result<World> load_world(const std::string& name_or_path) {
   if (name_or_path.ends_with(".yaml") || name_or_path.ends_with(".yml")) return read_image_world(name_or_path);
   std::ifstream file(name_or_path, std::ios::binary);
   return parse_svg_world({std::istreambuf_iterator<char>(file), {}}, name_or_path);
+}
+
+Result<void> check_size(const World& world) {
+  constexpr double kLargest = 1e5;  // metres from the origin
+  const auto near = [](const Vector2d& p) { return p.allFinite() && p.lpNorm<Eigen::Infinity>() <= kLargest; };
+  const auto is_near = [&](const Segment& s) { return near(s.from) && near(s.to); };
+  bool all = std::all_of(world.walls.begin(), world.walls.end(), is_near) &&
+             std::all_of(world.doors.begin(), world.doors.end(), is_near) &&
+             std::all_of(world.starts.begin(), world.starts.end(),
+                         [&](const Pose2& T) { return near(T.translation()) && std::isfinite(T.yaw); });
+  for (const Route& route : world.routes) all = all && std::all_of(route.points.begin(), route.points.end(), near);
+  if (!all) return fail("{}: has coordinates beyond {} m; units must be metres", world.name, kLargest);
+  return {};
 }
 
 std::string to_yaml(const World& world) {

@@ -36,6 +36,12 @@ struct World {
 
 /// ROS map_server's MAP.yaml with a PGM or PNG image; what is not free is solid.
 [[nodiscard]] Result<World> read_image_world(const std::string& yaml_path);
+/// The same from the text of the YAML and the bytes of the image; `name` is what messages call it.
+[[nodiscard]] Result<World> parse_image_world(const std::string& yaml, const std::string& image_bytes,
+                                              const std::string& name);
+
+/// Error: a world with coordinates that are not finite or that no building has.
+[[nodiscard]] Result<void> check_size(const World& world);
 
 /// The world as YAML, for whoever reads a simulation's folder.
 [[nodiscard]] std::string to_yaml(const World& world);
