@@ -15,6 +15,7 @@
 #include "helicoid/io/gzip_file.hpp"
 #include "helicoid/io/relations_file.hpp"
 #include "helicoid/io/trajectory.hpp"
+#include "helicoid/simulation/tour.hpp"
 
 namespace helicoid {
 
@@ -31,6 +32,7 @@ struct SimulateArguments {
   double laser_noise = 1;
   double odometry_noise = 1;
   bool no_sightings = false;
+  bool same_way = false;
   bool force = false;
   bool json = false;
 };
@@ -42,6 +44,7 @@ struct Recording {
   std::size_t scans = 0, odometry = 0, sightings = 0;
   double seconds = 0;
   double metres = 0;
+  double closest_approach = 0;  ///< of two robots, metres
 };
 
 void note(Recording& recording, const SimulatedEvent& simulated) {
@@ -73,6 +76,7 @@ Recording record(Simulator& simulator, const SimulateArguments& a) {
     if (recording.scans % 64 == 0) bar.show(simulator.progress(), "simulating");
   }
   recording.seconds -= first;
+  recording.closest_approach = simulator.closest_approach();
   return recording;
 }
 
@@ -114,6 +118,7 @@ Json to_json(const SimulateArguments& a, const Recording& recording, std::size_t
           {"sightings", recording.sightings},
           {"seconds", std::round(1000 * recording.seconds) / 1000},
           {"metres", std::round(100 * recording.metres) / 100},
+          {"closest_approach_m", s.robots > 1 ? Json(std::round(1000 * recording.closest_approach) / 1000) : Json()},
           {"relations", relations}};
 }
 
@@ -143,12 +148,41 @@ Result<Json> write_recording(const World& world, const Recording& recording, con
   return summary;
 }
 
+/// The world, with a tour of it if it brings no route.
+Result<World> load_drivable_world(const std::string& name) {
+  Result<World> world = load_world(name);
+  if (!world || !world->routes.empty()) return world;
+  Result<Route> tour = plan_tour(*world);
+  if (!tour) return tl::unexpected(tour.error());
+  world->routes.push_back(std::move(*tour));
+  return world;
+}
+
+/// Logs of an earlier simulation with more robots.
+void remove_further_logs(const SimulateArguments& a) {
+  std::error_code error;
+  for (auto i = static_cast<std::size_t>(a.simulation.robots);; ++i) {
+    if (!fs::remove(fs::path(a.out) / (simulated_robot_name(i) + ".clf.gz"), error)) return;
+  }
+}
+
+void print_report(const World& world, const Recording& recording, const Json& summary, const std::string& out) {
+  fmt::print("world      {}: {} walls, {} routes\n", world.name, world.walls.size(), world.routes.size());
+  fmt::print("drive      {} robots, {:.0f} m, {:.0f} s\n", recording.logs.size(), recording.metres, recording.seconds);
+  fmt::print("events     {} scans, {} odometry, {} sightings\n", recording.scans, recording.odometry,
+             recording.sightings);
+  for (const TrueTrack& track : recording.tracks) fmt::print("log        {}/{}.clf.gz\n", out, track.robot);
+  fmt::print("truth      {0}/truth, {0}/truth.relations ({1})\npicture    {0}/world.svg\n", out,
+             summary["relations"].get<std::size_t>());
+}
+
 int run_verb(SimulateArguments a) {
-  Result<World> world = load_world(a.world);
+  const Result<World> world = load_drivable_world(a.world);
   if (!world) return report_failure(world.error().message);
   a.simulation.scan_period = 1 / a.rate;
   a.simulation.laser_noise = scaled(a.simulation.laser_noise, a.laser_noise);
   a.simulation.odometry_noise = scaled(a.simulation.odometry_noise, a.odometry_noise);
+  a.simulation.alternate = !a.same_way;
   a.simulation.sightings = a.simulation.robots > 1 && !a.no_sightings;
   Result<Simulator> simulator = Simulator::make(*world, a.simulation);
   if (!simulator) return report_failure(simulator.error().message);
@@ -158,17 +192,12 @@ int run_verb(SimulateArguments a) {
   const Recording recording = record(*simulator, a);
   const Result<Json> summary = write_recording(*world, recording, a);
   if (!summary) return report_failure(summary.error().message);
+  remove_further_logs(a);
   if (a.json) {
     fmt::print("{}\n", summary->dump(1));
-    return kDone;
+  } else {
+    print_report(*world, recording, *summary, a.out);
   }
-  fmt::print("world      {}: {} walls, {} routes\n", world->name, world->walls.size(), world->routes.size());
-  fmt::print("drive      {} robots, {:.0f} m, {:.0f} s\n", recording.logs.size(), recording.metres, recording.seconds);
-  fmt::print("events     {} scans, {} odometry, {} sightings\n", recording.scans, recording.odometry,
-             recording.sightings);
-  for (const TrueTrack& track : recording.tracks) fmt::print("log        {}/{}.clf.gz\n", a.out, track.robot);
-  fmt::print("truth      {0}/truth, {0}/truth.relations ({1})\npicture    {0}/world.svg\n", a.out,
-             (*summary)["relations"].get<std::size_t>());
   return kDone;
 }
 
@@ -199,7 +228,8 @@ void add_options(CLI::App& verb, SimulateArguments& a) {
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   verb.add_option("--speed", s.limits.speed, "metres a second")->check(CLI::Range(0.05, 3.0))->capture_default_str();
-  verb.add_flag("--alternate", s.alternate, "every second robot drives a closed route the other way");
+  verb.add_flag("--same-way", a.same_way,
+                "all robots drive a closed route the same way; default: every second the other");
   verb.add_flag("--no-sightings", a.no_sightings, "robots do not report one another (a single one never does)");
   verb.add_option("--sighting-range", s.sighting_range, "how far a robot recognises another, metres")
       ->check(CLI::Range(0.5, 80.0))

@@ -78,6 +78,25 @@ TEST(SimulateVerb, RefusesAFolderThatItDidNotMake) {
   EXPECT_EQ(run("simulate room --out " + folder.string()), 0);  // its own, now
 }
 
+TEST(SimulateVerb, LeavesNoLogOfAnEarlierRun) {
+  const fs::path folder = fresh_folder("fewer");
+  ASSERT_EQ(run("simulate room --robots 3 --out " + folder.string()), 0);
+  ASSERT_EQ(run("simulate room --robots 1 --out " + folder.string()), 0);
+  EXPECT_TRUE(fs::exists(folder / "robot1.clf.gz"));
+  for (const char* name : {"robot2.clf.gz", "robot3.clf.gz", "truth/robot2.tum"})
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+}
+
+TEST(SimulateVerb, DrivesThroughAMapThatWasMade) {
+  const fs::path sim = fresh_folder("first");
+  const fs::path site = fresh_folder("site");
+  const fs::path again = fresh_folder("again");
+  ASSERT_EQ(run("simulate room --out " + sim.string()), 0);
+  ASSERT_EQ(run("map " + (sim / "robot1.clf.gz").string() + " --out " + site.string()), 0);
+  EXPECT_EQ(run("simulate " + (site / "map.yaml").string() + " --out " + again.string()), 0);
+  EXPECT_GT(read_tum((again / "truth" / "robot1.tum").string())->poses.size(), 50U);
+}
+
 TEST(SimulateVerb, TellsUsageFromFailure) {
   EXPECT_EQ(run("simulate room"), 2);
   EXPECT_EQ(run("simulate room --robots 0 --out " + fresh_folder("none").string()), 2);

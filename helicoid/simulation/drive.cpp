@@ -58,8 +58,8 @@ double RouteDriver::next_corner(double along) const {
 }
 
 /// Pushes the target along the route until it is out of reach again; at sharp bends it waits for the robot.
-void RouteDriver::push_target() {
-  const auto distance = [this] { return (point_at(at_) - T_world_robot_.translation()).norm(); };
+void RouteDriver::push_target(double aside) {
+  const auto distance = [&] { return (target(aside) - T_world_robot_.translation()).norm(); };
   while (distance() < limits_.look_ahead) {
     if (at_ + kStep >= corner_) {
       at_ = corner_;
@@ -70,16 +70,24 @@ void RouteDriver::push_target() {
   }
 }
 
-void RouteDriver::step(double dt) {
-  push_target();
+Vector2d RouteDriver::target(double aside) const {
+  const Vector2d p = point_at(at_);
+  if (aside == 0) return p;
+  const Vector2d along = (p - point_at(at_ - kStep)).normalized();
+  return p + aside * Vector2d(along.y(), -along.x());
+}
+
+void RouteDriver::step(double dt, double aside) {
+  push_target(aside);
   laps_ = static_cast<int>(std::floor((at_ - start_) / along_.back()));
-  const Vector2d target = T_world_robot_.inverse() * point_at(at_);
-  const double side = std::atan2(target.y(), target.x());
+  const Vector2d p_robot_target = T_world_robot_.inverse() * target(aside);
+  const double side = std::atan2(p_robot_target.y(), p_robot_target.x());
   const double turn = std::clamp(2 * side / dt, -limits_.turn_rate, limits_.turn_rate);
   const double omega = std::abs(side) < limits_.turn_rate * dt ? side / dt : turn;
   const double speed =
       std::abs(side) > limits_.turn_in_place ? 0 : limits_.speed * (1 - std::abs(side) / limits_.turn_in_place);
-  T_world_robot_ = T_world_robot_ * exponential(Vector3d(std::min(speed, target.norm() / dt) * dt, 0, omega * dt));
+  T_world_robot_ =
+      T_world_robot_ * exponential(Vector3d(std::min(speed, p_robot_target.norm() / dt) * dt, 0, omega * dt));
 }
 
 }  // namespace helicoid

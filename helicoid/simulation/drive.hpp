@@ -18,8 +18,10 @@ class RouteDriver {
   /// Starts on the route at this share of its length; `backward` drives a closed route the other way.
   RouteDriver(Route route, double share, bool backward, const DriveLimits& limits = {});
 
-  /// Moves on by dt seconds.
-  void step(double dt);
+  /// Moves on by dt seconds, towards a target that lies `aside` metres to the right of the route.
+  void step(double dt, double aside = 0);
+  /// The target that lies so far to the right of the route.
+  [[nodiscard]] Vector2d target(double aside = 0) const;
   [[nodiscard]] const Pose2& T_world_robot() const { return T_world_robot_; }
   /// Finished laps; a lap of an open route is out and back.
   [[nodiscard]] int laps() const { return laps_; }
@@ -28,7 +30,7 @@ class RouteDriver {
  private:
   [[nodiscard]] Vector2d point_at(double along) const;
   [[nodiscard]] double next_corner(double along) const;
-  void push_target();
+  void push_target(double aside);
   std::vector<Vector2d> points_;  ///< a whole lap, the first point again at the end
   std::vector<double> along_;     ///< length up to each point
   std::vector<double> corners_;   ///< lengths up to the sharp bends, ascending, in (0, length]

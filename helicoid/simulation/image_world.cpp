@@ -133,6 +133,24 @@ void add_borders(const std::vector<std::uint8_t>& free, int width, int height, b
   }
 }
 
+/// The free cell that is farthest from all others (by city blocks): inside the building, in the open.
+int most_open_cell(const std::vector<std::uint8_t>& free, int width, int height) {
+  std::vector<int> depth(free.size());
+  const auto at = [&](int column, int row) {
+    const bool inside = column >= 0 && row >= 0 && column < width && row < height;
+    return inside ? depth[static_cast<std::size_t>(row) * width + column] : 0;
+  };
+  const int count = width * height;
+  for (int i = 0; i < count; ++i) {
+    if (free[i] != 0) depth[i] = 1 + std::min(at(i % width - 1, i / width), at(i % width, i / width - 1));
+  }
+  for (int i = count - 1; i >= 0; --i) {
+    if (free[i] != 0)
+      depth[i] = std::min(depth[i], 1 + std::min(at(i % width + 1, i / width), at(i % width, i / width + 1)));
+  }
+  return static_cast<int>(std::max_element(depth.begin(), depth.end()) - depth.begin());
+}
+
 }  // namespace
 
 Result<World> parse_image_world(const std::string& yaml, const std::string& image_bytes, const std::string& name) {
@@ -156,6 +174,9 @@ Result<World> parse_image_world(const std::string& yaml, const std::string& imag
   add_borders(free, image->width, image->height, false, resolution, lower_left, world.walls);
   if (world.walls.empty()) return fail("{}: the image holds no free cell beside a solid one", name);
   if (const Result<void> checked = check_size(world); !checked) return tl::unexpected(checked.error());
+  const int open = most_open_cell(free, image->width, image->height);
+  const Vector2d start = lower_left + resolution * Vector2d(open % image->width + 0.5, open / image->width + 0.5);
+  world.starts.push_back({start.x(), start.y(), 0});
   return world;
 }
 

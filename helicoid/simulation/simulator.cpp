@@ -10,6 +10,9 @@ namespace {
 constexpr double kTick = 0.05;         // seconds
 constexpr double kFirstStamp = 1000;   // seconds
 constexpr double kRobotRadius = 0.22;  // of what others' lasers see, metres
+constexpr double kMeeting = 2.5;       // robots nearer than this get out of one another's way, metres
+constexpr int kPatience = 160;         // ticks
+constexpr double kClearance = 0.32;    // that they keep from walls meanwhile, metres
 constexpr double kPersonRadius = 0.18;
 constexpr double kPersonSpeed = 0.9;      // metres / second
 constexpr double kFarthestWalk = 8;       // metres
@@ -79,6 +82,11 @@ void Simulator::tick() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     if (robots_[i].done) continue;
     if (ticks_ > 0) move_robot(i);
+    for (std::size_t j = 0; j < i; ++j) {
+      const Pose2& other = robots_[j].driver.T_world_robot();
+      const Vector2d gap = robots_[i].driver.T_world_robot().translation() - other.translation();
+      closest_approach_ = std::min(closest_approach_, gap.norm());
+    }
     if (robots_[i].driver.laps() >= options_.laps) {
       robots_[i].done = true;
       continue;
@@ -142,10 +150,33 @@ void Simulator::move_people() {
   }
 }
 
+/// How far to the right of its route a robot drives: aside, if another comes towards it and there is room.
+double Simulator::way_aside(std::size_t index) {
+  const RouteDriver& driver = robots_[index].driver;
+  const Vector2d here = driver.T_world_robot().translation();
+  const bool met = std::any_of(robots_.begin(), robots_.end(), [&](const Robot& other) {
+    const Vector2d p_robot_other = driver.T_world_robot().inverse() * other.driver.T_world_robot().translation();
+    return &other != &robots_[index] && p_robot_other.norm() < kMeeting && p_robot_other.x() > -kRobotRadius;
+  });
+  // Whoever has waited long drives on, or two robots might yield to one another for ever.
+  int& patience = robots_[index].patience;
+  if (patience < 0 || !met) {
+    patience = std::min(patience + 1, 0);
+    return 0;
+  }
+  if (++patience > kPatience) patience = -kPatience;
+  for (const double aside : {0.6, 0.45, 0.3, 0.15}) {
+    const Vector2d way = driver.target(aside) - here;
+    const bool clear = walls_.clearance(driver.target(aside), 1) > kClearance;
+    if (clear && walls_.cast(here, way.normalized(), way.norm() + kClearance).segment < 0) return aside;
+  }
+  return 0;
+}
+
 void Simulator::move_robot(std::size_t index) {
   Robot& robot = robots_[index];
   const Pose2 before = robot.driver.T_world_robot();
-  robot.driver.step(kTick);
+  robot.driver.step(kTick, way_aside(index));
   const Pose2 truth = before.inverse() * robot.driver.T_world_robot();
   const OdometryNoise& noise = options_.odometry_noise;
   const double distance = truth.distance();

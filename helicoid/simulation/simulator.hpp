@@ -1,6 +1,7 @@
 // Robots on given routes through a world: events in time order, with the truth beside them. Streaming, seeded.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <queue>
 #include <string>
@@ -46,6 +47,9 @@ class Simulator {
   [[nodiscard]] const LaserModel& laser() const { return laser_; }
   /// The share of all laps that is driven, 0..1.
   [[nodiscard]] double progress() const;
+  /// The smallest distance between two robots' centres so far, metres; infinity for one robot. Robots keep to the right
+  /// where there is room, but in a door they drive through one another.
+  [[nodiscard]] double closest_approach() const { return closest_approach_; }
 
  private:
   struct Robot;
@@ -58,6 +62,7 @@ class Simulator {
   [[nodiscard]] std::vector<Disc> discs_around(std::size_t index) const;
   [[nodiscard]] bool hidden(const Vector2d& from, const Vector2d& to, std::span<const Disc> discs) const;
   void move_people();
+  [[nodiscard]] double way_aside(std::size_t index);
   void move_robot(std::size_t index);
   void scan(std::size_t index);
   void sight(std::size_t index);
@@ -71,6 +76,7 @@ class Simulator {
   std::vector<Person> people_;
   std::vector<double> last_sighting_;  ///< by pair
   std::queue<SimulatedEvent> events_;
+  double closest_approach_ = std::numeric_limits<double>::infinity();
   long ticks_ = 0;
 };
 
@@ -80,6 +86,7 @@ struct Simulator::Robot {
   LaserBias laser_bias;
   double distance_scale = 1, turn_scale = 1, drift = 0;
   Pose2 T_odom_robot;
+  int patience = 0;  ///< ticks that it has been getting out of another's way, or, below 0, will not yet again
   bool done = false;
 };
 

@@ -107,6 +107,36 @@ TEST(Simulator, NoRobotTouchesAWallInAShippedWorld) {
   }
 }
 
+TEST(Simulator, RobotsThatMeetInACorridorPassOneAnother) {
+  const Result<World> world = load_world("loop");
+  const RayCaster walls(world->walls);
+  SimulationOptions options = exact();
+  options.robots = 2;
+  options.alternate = true;
+  options.scan_period = 5;
+  Result<Simulator> simulator = Simulator::make(*world, options);
+  while (const auto event = simulator->next()) {
+    ASSERT_GT(walls.clearance(event->T_world_robot.translation(), 100), 0.22);
+  }
+  EXPECT_GT(simulator->closest_approach(), 0.44);
+  EXPECT_LT(simulator->closest_approach(), 2);
+}
+
+TEST(Simulator, ManyRobotsThatMeetAllFinishTheirLaps) {
+  const Result<World> world = load_world("office");
+  SimulationOptions options = exact();
+  options.robots = 5;
+  options.alternate = true;
+  options.scan_period = 5;
+  Result<Simulator> simulator = Simulator::make(*world, options);
+  double last = 0;
+  while (const auto event = simulator->next()) {
+    last = event->event.stamp - 1000;
+    ASSERT_LT(last, 1500) << "nobody gets on";
+  }
+  EXPECT_GT(last, 300);
+}
+
 TEST(Simulator, LapsEndWhereTheyBegan) {
   for (const char* name : {"room", "branch"}) {
     const Result<World> world = load_world(name);
