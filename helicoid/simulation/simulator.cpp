@@ -154,17 +154,19 @@ void Simulator::move_people() {
 double Simulator::way_aside(std::size_t index) {
   const RouteDriver& driver = robots_[index].driver;
   const Vector2d here = driver.T_world_robot().translation();
-  const bool met = std::any_of(robots_.begin(), robots_.end(), [&](const Robot& other) {
+  bool near = false;
+  bool met = false;
+  for (const Robot& other : robots_) {
     const Vector2d p_robot_other = driver.T_world_robot().inverse() * other.driver.T_world_robot().translation();
-    return &other != &robots_[index] && p_robot_other.norm() < kMeeting && p_robot_other.x() > -kRobotRadius;
-  });
-  // Whoever has waited long drives on, or two robots might yield to one another for ever.
-  int& patience = robots_[index].patience;
-  if (patience < 0 || !met) {
-    patience = std::min(patience + 1, 0);
-    return 0;
+    if (&other == &robots_[index] || p_robot_other.norm() > kMeeting) continue;
+    near = true;
+    met = met || p_robot_other.x() > -kRobotRadius;
   }
-  if (++patience > kPatience) patience = -kPatience;
+  // Whoever has had another beside it for long drives on, or two robots might yield to one another for ever.
+  int& patience = robots_[index].patience;
+  patience = patience < 0 ? patience + 1 : near ? patience + 1 : 0;
+  if (patience > kPatience) patience = -kPatience;
+  if (patience < 0 || !met) return 0;
   for (const double aside : {0.6, 0.45, 0.3, 0.15}) {
     const Vector2d way = driver.target(aside) - here;
     const bool clear = walls_.clearance(driver.target(aside), 1) > kClearance;

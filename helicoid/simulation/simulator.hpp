@@ -86,7 +86,7 @@ struct Simulator::Robot {
   LaserBias laser_bias;
   double distance_scale = 1, turn_scale = 1, drift = 0;
   Pose2 T_odom_robot;
-  int patience = 0;  ///< ticks that it has been getting out of another's way, or, below 0, will not yet again
+  int patience = 0;  ///< ticks that another has been near; below 0: that it will not get out of the way
   bool done = false;
 };
 
