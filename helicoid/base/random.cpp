@@ -33,9 +33,13 @@ std::uint64_t Random::bits() {
   return result;
 }
 
-double Random::uniform() { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
+double Random::uniform() {
+  return static_cast<double>(bits() >> 11U) * 0x1.0p-53;
+}
 
-double Random::uniform(double low, double high) { return low + (high - low) * uniform(); }
+double Random::uniform(double low, double high) {
+  return low + (high - low) * uniform();
+}
 
 std::uint64_t Random::below(std::uint64_t count) {
   // The top of the range is drawn again, so that every value is equally likely.
@@ -64,8 +68,12 @@ double Random::normal() {
   return u * factor;
 }
 
-bool Random::chance(double probability) { return uniform() < probability; }
+bool Random::chance(double probability) {
+  return uniform() < probability;
+}
 
-Random Random::split() { return Random(bits()); }
+Random Random::split() {
+  return Random(bits());
+}
 
 }  // namespace helicoid

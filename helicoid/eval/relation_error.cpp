@@ -21,8 +21,8 @@ class PoseLookup {
 
   [[nodiscard]] std::optional<Pose2> nearest(double stamp, double tolerance) const {
     const auto& stamps = trajectory_->stamps;
-    const auto at = std::lower_bound(order_.begin(), order_.end(), stamp,
-                                     [&](std::size_t i, double t) { return stamps[i] < t; });
+    const auto at =
+        std::lower_bound(order_.begin(), order_.end(), stamp, [&](std::size_t i, double t) { return stamps[i] < t; });
     std::optional<Pose2> found;
     double best = tolerance;
     if (at != order_.end() && std::abs(stamps[*at] - stamp) <= best) {
@@ -41,8 +41,8 @@ class PoseLookup {
 
 const PoseLookup* find(const std::vector<PoseLookup>& lookups, const std::string& robot) {
   if (robot.empty()) return lookups.size() == 1 ? &lookups.front() : nullptr;
-  const auto at = std::find_if(lookups.begin(), lookups.end(),
-                               [&](const PoseLookup& l) { return l.trajectory().robot == robot; });
+  const auto at =
+      std::find_if(lookups.begin(), lookups.end(), [&](const PoseLookup& l) { return l.trajectory().robot == robot; });
   return at != lookups.end() ? &*at : nullptr;
 }
 

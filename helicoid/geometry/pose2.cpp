@@ -27,8 +27,7 @@ Pose2 Pose2::inverse() const {
 Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c) {
   const double c = std::cos(T_a_b.yaw);
   const double s = std::sin(T_a_b.yaw);
-  return {T_a_b.x + c * T_b_c.x - s * T_b_c.y, T_a_b.y + s * T_b_c.x + c * T_b_c.y,
-          wrap_angle(T_a_b.yaw + T_b_c.yaw)};
+  return {T_a_b.x + c * T_b_c.x - s * T_b_c.y, T_a_b.y + s * T_b_c.x + c * T_b_c.y, wrap_angle(T_a_b.yaw + T_b_c.yaw)};
 }
 
 Vector2d operator*(const Pose2& T_a_b, const Vector2d& p_b) {

@@ -15,8 +15,12 @@ using Eigen::Vector3d;
 /// The equal angle in [-pi, pi).
 [[nodiscard]] double wrap_angle(double angle);
 
-[[nodiscard]] constexpr double degrees(double radians) { return radians * (180 / std::numbers::pi); }
-[[nodiscard]] constexpr double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
+[[nodiscard]] constexpr double degrees(double radians) {
+  return radians * (180 / std::numbers::pi);
+}
+[[nodiscard]] constexpr double radians(double degrees) {
+  return degrees * (std::numbers::pi / 180);
+}
 
 /// A rigid transform of the plane. `T_a_b` takes coordinates in frame b to frame a; as a pose it is where b
 /// stands in a. The yaw is kept within [-pi, pi) by composition and inversion.
@@ -40,9 +44,13 @@ struct Pose2 {
 [[nodiscard]] Vector2d operator*(const Pose2& T_a_b, const Vector2d& p_b);
 
 /// The paper's r (+) theta (III-A): the projected pose of r, which is given relative to the patch at theta.
-[[nodiscard]] inline Pose2 oplus(const Pose2& r, const Pose2& theta) { return theta * r; }
+[[nodiscard]] inline Pose2 oplus(const Pose2& r, const Pose2& theta) {
+  return theta * r;
+}
 /// The paper's q (-) theta (III-A): the pose relative to the patch at theta of what projects to q.
-[[nodiscard]] inline Pose2 ominus(const Pose2& q, const Pose2& theta) { return theta.inverse() * q; }
+[[nodiscard]] inline Pose2 ominus(const Pose2& q, const Pose2& theta) {
+  return theta.inverse() * q;
+}
 
 /// The exponential of SE(2): where a body with the constant twist (v_x, v_y, omega), in its own frame, is after one
 /// unit of time.

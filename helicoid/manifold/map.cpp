@@ -33,7 +33,9 @@ RobotId MapEditor::add_robot(std::string name, std::vector<LaserModel> lasers) {
   return make_id<RobotId>(map_.robots_.size() - 1);
 }
 
-IslandId MapEditor::add_island() { return make_id<IslandId>(map_.island_count_++); }
+IslandId MapEditor::add_island() {
+  return make_id<IslandId>(map_.island_count_++);
+}
 
 PatchId MapEditor::add_patch(Patch patch, const Pose2& T_plane_patch, IslandId island) {
   assert(patch.id.index() == map_.patches_.size());

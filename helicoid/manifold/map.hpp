@@ -21,9 +21,9 @@ struct ManifoldPose {
 
 /// Where one scan was taken. The same place whatever a later fit does to the patch's pose.
 struct TrackedScan {
-  double stamp = 0;                    ///< seconds
-  ManifoldPose pose;                   ///< as matched
-  Pose2 T_island_robot_online;         ///< the projected pose as it was first reported
+  double stamp = 0;                        ///< seconds
+  ManifoldPose pose;                       ///< as matched
+  Pose2 T_island_robot_online;             ///< the projected pose as it was first reported
   Matrix3d covariance = Matrix3d::Zero();  ///< of T_patch_robot, in the patch's frame, noise floor not included
 };
 

@@ -40,7 +40,8 @@ std::vector<PatchSet> find_confident(const Map& map, const Island& island, const
   for (std::size_t i = 0; i < island.patches.size(); ++i) {
     const PatchId id = island.patches[i];
     const BoundOptions bound = bound_options(map.patch(id), options.position, options.heading, 2 * reach);
-    for (const BoundedPose& pose : tree_bound(graph, map.poses(), id.value, bound)) confident[i].insert(place[pose.pose]);
+    for (const BoundedPose& pose : tree_bound(graph, map.poses(), id.value, bound))
+      confident[i].insert(place[pose.pose]);
   }
   return confident;
 }

@@ -12,7 +12,8 @@ Patch make_patch(PatchId id, RobotId robot, std::size_t scan_index, double stamp
   patch.free_space = free_space_polygon(patch.scan, laser, make_beam_table(laser));
   patch.free_ranges = free_ranges(patch.scan, laser);
   patch.points = ScanPointExtractor(laser).extract(patch.scan);
-  for (const auto& vertex : patch.free_space) patch.free_reach = std::max(patch.free_reach, static_cast<double>(vertex.norm()));
+  for (const auto& vertex : patch.free_space)
+    patch.free_reach = std::max(patch.free_reach, static_cast<double>(vertex.norm()));
   patch.reach = patch.free_reach;
   for (std::size_t i = 0; i < patch.points.size(); ++i) {
     patch.reach = std::max(patch.reach, static_cast<double>(std::hypot(patch.points.x[i], patch.points.y[i])));
@@ -25,8 +26,9 @@ bool contains(const Patch& patch, const Vector2d& p_patch) {
   const double range = p_laser.norm();
   if (range == 0) return !patch.free_space.empty();
   const LaserModel& laser = patch.laser;
-  const double offset = wrap_angle(std::atan2(p_laser.y(), p_laser.x()) - laser.first_bearing -
-                                   0.5 * laser.field_of_view()) + 0.5 * laser.field_of_view();
+  const double offset =
+      wrap_angle(std::atan2(p_laser.y(), p_laser.x()) - laser.first_bearing - 0.5 * laser.field_of_view()) +
+      0.5 * laser.field_of_view();
   const double at = offset / laser.bearing_step;
   const double below = std::floor(at);
   if (below < 0 || below + 1 > laser.beams - 1) return at == laser.beams - 1 && range <= patch.free_ranges.back();
