@@ -1,8 +1,8 @@
 #include "apps/experiment_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "apps/svg_drawing.hpp"
 #include "helicoid/base/whole_file.hpp"
@@ -22,8 +22,10 @@ Json bar_json(const Bar* bar) {
   return json;
 }
 
+/// Four digits; whole numbers whole.
 std::string number(double value) {
-  return fmt::format("{:.4g}", value);
+  const bool whole = std::abs(value) >= 1000 && std::abs(value) < 1e9;
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
 const char* verdict(const MetricSummary& s) {
@@ -63,7 +65,7 @@ void draw_row(SvgDrawing& drawing, const MetricSummary& s, const ExperimentRepor
 std::string draw_chart(const Experiment& experiment, const ExperimentReport& report) {
   constexpr double kRow = 34;
   constexpr double kTop = 62;
-  SvgDrawing drawing(980, kTop + kRow * static_cast<double>(report.by_case.size()) + 20);
+  SvgDrawing drawing(1040, kTop + kRow * static_cast<double>(report.by_case.size()) + 20);
   drawing.text({20, 28}, experiment.question, {15, "start", charts::kText, true, 0});
   for (std::size_t i = 0; i < report.by_case.size(); ++i) {
     draw_row(drawing, report.by_case[i], report, kTop + kRow * (static_cast<double>(i) + 0.5));

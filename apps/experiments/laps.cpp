@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "apps/chart.hpp"
 #include "apps/experiments/list.hpp"
 #include "apps/process_memory.hpp"
 #include "apps/simulated_run.hpp"
@@ -99,9 +100,28 @@ Result<LapsResult> drive_alone(const World& world, std::uint64_t seed) {
     got += static_cast<std::size_t>(n);
   }
   close(ends[0]);
-  waitpid(child, nullptr, 0);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFSIGNALED(status)) return fail("the run's process was ended by signal {}", WTERMSIG(status));
   if (got < sizeof result) return fail("the run's process ended early");
   return result;
+}
+
+ExperimentPicture draw_growth(const std::string& world, const LapsResult& r) {
+  Chart chart;
+  chart.title = fmt::format("{}: the map after each lap", world);
+  chart.x_label = "lap";
+  chart.y_label = "patches";
+  chart.y_from = 0.0;
+  Series patches{"", {}, charts::robot_colour(0), Series::Look::line};
+  Series dots{"", {}, charts::robot_colour(0), Series::Look::dots};
+  for (std::size_t i = 0; i < r.laps.size(); ++i) {
+    patches.points.emplace_back(static_cast<double>(i + 1), r.laps[i].patches);
+  }
+  dots.points = patches.points;
+  chart.series = {patches, dots};
+  chart.height = 300;
+  return {world, draw_charts({chart})};
 }
 
 Outcome repeated(const LapsResult& r) {
@@ -133,7 +153,9 @@ ExperimentCase make_case(const std::string& world_name, Outcome (*judge)(const L
             if (!world) return tl::unexpected(world.error());
             const Result<LapsResult> result = drive_alone(*world, seed);
             if (!result) return tl::unexpected(result.error());
-            return judge(*result);
+            Outcome outcome = judge(*result);
+            if (seed == 1) outcome.pictures.push_back(draw_growth(world_name, *result));
+            return outcome;
           }};
 }
 
