@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <memory>
 
+#include "helicoid/base/whole_file.hpp"
 #include "helicoid/charts/palette.hpp"
 #include "helicoid/charts/raster.hpp"
-#include "helicoid/base/whole_file.hpp"
 
 namespace helicoid {
 

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <limits>
 
-#include "helicoid/charts/palette.hpp"
 #include "helicoid/base/whole_file.hpp"
+#include "helicoid/charts/palette.hpp"
 
 namespace helicoid {
 
