@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <ctime>
+#include <numeric>
 
 #include "helicoid/io/laser_file.hpp"
 
@@ -64,25 +65,9 @@ void collect_skipped(MapRun& run, MergedLogs& logs) {
   add("sighting, not used yet", counts.sightings);
 }
 
-}  // namespace
-
-double thread_cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-Result<MapRun> run_map(const MapJob& job) {
-  const InterruptGuard guard;
-  const double start = thread_cpu_seconds();
-  const auto began = std::chrono::steady_clock::now();
-  Result<MergedLogs> logs = MergedLogs::open(job.robots);
-  if (!logs) return tl::unexpected(logs.error());
-  MapRun run;
-  run.mapper = Mapper(job.mapper);
-  run.began = began;
-  std::size_t bytes = 0;
-  for (auto& robot : logs->robots()) {
+/// Makes the logs' robots and their lasers known to the mapper.
+Result<void> add_robots(const MapJob& job, MergedLogs& logs, MapRun& run) {
+  for (auto& robot : logs.robots()) {
     std::vector<LaserModel> lasers = robot.reader->lasers();
     for (LaserModel& laser : lasers) {
       if (!job.laser.empty()) {
@@ -94,11 +79,23 @@ Result<MapRun> run_map(const MapJob& job) {
     }
     run.mapper.add_robot(robot.logs.name, lasers);
     run.logs.push_back(fmt::format("{}", fmt::join(robot.logs.paths, ",")));
-    bytes += robot.reader->bytes();
   }
-  Selection selection(job, logs->robots().size());
-  double mapping = 0;
-  while (const Event* event = logs->next()) {
+  return {};
+}
+
+double share_done(MergedLogs& logs) {
+  std::size_t bytes = 0;
+  std::size_t done = 0;
+  for (const auto& robot : logs.robots()) {
+    bytes += robot.reader->bytes();
+    done += robot.reader->bytes_done();
+  }
+  return static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(bytes, 1));
+}
+
+void map_events(const MapJob& job, MergedLogs& logs, MapRun& run) {
+  Selection selection(job, logs.robots().size());
+  while (const Event* event = logs.next()) {
     // One scan at least, so that there is a map to write.
     if (interrupted != 0 && !run.scan_seconds.empty()) break;
     if (!selection.wants(*event)) continue;
@@ -109,16 +106,31 @@ Result<MapRun> run_map(const MapJob& job) {
     const double before = thread_cpu_seconds();
     run.mapper.process(*event);
     run.scan_seconds.push_back(thread_cpu_seconds() - before);
-    mapping += run.scan_seconds.back();
-    if (job.progress && run.scan_seconds.size() % 256 == 0) {
-      std::size_t done = 0;
-      for (const auto& robot : logs->robots()) done += robot.reader->bytes_done();
-      job.progress(static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(bytes, 1)));
-    }
+    if (job.progress && run.scan_seconds.size() % 256 == 0) job.progress(share_done(logs));
   }
   run.scans = run.scan_seconds.size();
   run.interrupted = interrupted != 0;
+}
+
+}  // namespace
+
+double thread_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Result<MapRun> run_map(const MapJob& job) {
+  const InterruptGuard guard;
+  const double start = thread_cpu_seconds();
+  MapRun run;
+  Result<MergedLogs> logs = MergedLogs::open(job.robots);
+  if (!logs) return tl::unexpected(logs.error());
+  run.mapper = Mapper(job.mapper);
+  if (auto added = add_robots(job, *logs, run); !added) return tl::unexpected(added.error());
+  map_events(job, *logs, run);
   collect_skipped(run, *logs);
+  const double mapping = std::accumulate(run.scan_seconds.begin(), run.scan_seconds.end(), 0.0);
   run.phase.match = mapping - run.mapper.times().fit_s;
   run.phase.read = thread_cpu_seconds() - start - mapping;
   run.mapper.finish();
