@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   helicoid::add_map_verb(program, exit_code);
   helicoid::add_eval_verb(program, exit_code);
   helicoid::add_simulate_verb(program, exit_code);
+  helicoid::add_fit_verb(program, exit_code);
   helicoid::add_info_verb(program, exit_code);
   helicoid::add_plot_verb(program, exit_code);
   helicoid::add_bench_verb(program, exit_code);

@@ -1,6 +1,6 @@
 # A library that comes without a CMake package of its own.
 function(helicoid_find_plain target header library)
-  find_path(${library}_INCLUDE_DIR ${header} REQUIRED)
+  find_path(${library}_INCLUDE_DIR ${header} PATH_SUFFIXES suitesparse REQUIRED)
   find_library(${library}_LIBRARY ${library} REQUIRED)
   add_library(${target} UNKNOWN IMPORTED)
   set_target_properties(${target} PROPERTIES IMPORTED_LOCATION ${${library}_LIBRARY}
@@ -14,6 +14,10 @@ macro(helicoid_find_third_party target)
       helicoid_find_plain(GEOS::geos_c geos_c.h geos_c)
     elseif("${target}" STREQUAL "libdeflate::libdeflate")
       helicoid_find_plain(libdeflate::libdeflate libdeflate.h deflate)
+    elseif("${target}" STREQUAL "AMD::amd")
+      helicoid_find_plain(AMD::amd amd.h amd)
+    elseif("${target}" STREQUAL "METIS::metis")
+      helicoid_find_plain(METIS::metis metis.h metis)
     elseif("${target}" STREQUAL "Cairo::cairo")
       find_package(PkgConfig REQUIRED)
       pkg_check_modules(cairo REQUIRED QUIET IMPORTED_TARGET cairo)

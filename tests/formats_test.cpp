@@ -123,6 +123,12 @@ TEST(Formats, DescribesEveryKeyOfAnEvaluation) {
   expect_same(keys, documented_keys("eval --json"));
 }
 
+TEST(Formats, DescribesEveryKeyOfAFit) {
+  const Sandbox box;
+  const std::string graph = box.write("graph.g2o", "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nVERTEX_SE2 0 0 0 nan\n");
+  expect_same(keys_of(json_of({"fit", graph})), documented_keys("fit --json"));
+}
+
 TEST(Formats, DescribesEveryKeyOfInfo) {
   const Sandbox box;
   const std::string sim = box.simulate("sim");

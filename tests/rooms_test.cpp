@@ -25,6 +25,8 @@ const std::vector<ThirdParty>& third_parties() {
       {"Eigen/", "Eigen3::Eigen", {"geometry"}, true},
       {"fmt/", "fmt::fmt", {"base"}, true},
       {"tl/expected.hpp", "tl::expected", {"base"}, true},
+      {"amd.h", "AMD::amd", {"fit"}},
+      {"metis.h", "METIS::metis", {"fit"}},
       {"geos_c.h", "GEOS::geos_c", {"geometry"}},
       {"cairo/", "Cairo::cairo", {"charts"}},
       {"png.h", "PNG::PNG", {"charts", "simulation"}},

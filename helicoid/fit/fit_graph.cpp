@@ -1,49 +1,157 @@
 #include "helicoid/fit/fit_graph.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 
-#include "helicoid/fit/normal_equations.hpp"
+#include "helicoid/fit/cpu_clock.hpp"
+#include "helicoid/fit/first_order_fit.hpp"
+#include "helicoid/fit/linear_system.hpp"
 
 namespace helicoid {
 
-FitResult fit_graph(std::span<const Pose2> start, std::span<const GraphEdge> edges, std::uint32_t fixed,
-                    const FitOptions& options) {
-  FitResult result;
-  result.poses.assign(start.begin(), start.end());
-  if (start.size() < 2 || edges.empty()) return result;
-  NormalEquations system(start.size(), edges, fixed);
-  result.initial_cost = result.final_cost = system.cost(result.poses);
-  result.status = FitStatus::iteration_limit;
-  double damping = 0;
-  while (result.iterations < options.max_iterations) {
-    ++result.iterations;
-    system.linearise(result.poses);
-    result.gradient_norm = system.gradient().norm();
-    bool lowered = false;
-    for (int attempt = 0; attempt < 10 && !lowered; ++attempt) {
-      if (!system.factorise(damping)) {
-        damping = std::max(1e-6, 10 * damping);
-        continue;
-      }
-      const Eigen::VectorXd step = -system.solve(system.gradient());
-      std::vector<Pose2> next = system.moved(result.poses, step);
-      const double cost = system.cost(next);
-      if (cost > result.final_cost * (1 + 1e-12)) {
-        damping = std::max(1e-6, 10 * damping);
-        continue;
-      }
-      lowered = true;
-      damping = damping > 1e-6 ? 0.1 * damping : 0;
-      const bool done = result.final_cost - cost <= options.relative_tolerance * result.final_cost ||
-                        step.lpNorm<Eigen::Infinity>() < options.step_tolerance;
-      result.poses = std::move(next);
-      result.final_cost = cost;
-      if (done) result.status = FitStatus::converged;
+namespace {
+
+constexpr double kLeastDamping = 1e-6;
+constexpr double kMostDamping = 1e6;
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+double largest(std::span<const double> step) {
+  double most = 0;
+  for (const double s : step) most = std::max(most, std::abs(s));
+  return most;
+}
+
+/// Levenberg-Marquardt, one step at a time.
+class LevenbergMarquardt {
+ public:
+  LevenbergMarquardt(LinearSystem& system, const FitOptions& options, FitResult& result)
+      : system_(system), options_(options), result_(result) {}
+
+  void run() {
+    relinearise();
+    result_.initial_cost = result_.final_cost;
+    result_.status = FitStatus::iteration_limit;
+    while (result_.iterations < options_.max_iterations && result_.status == FitStatus::iteration_limit) iterate();
+  }
+
+ private:
+  void relinearise() {
+    const CpuTimer timer(result_.times.linearise_s);
+    result_.final_cost = system_.linearise(result_.poses, options_.loss);
+    result_.gradient_norm = std::sqrt(dot(system_.gradient(), system_.gradient()));
+  }
+
+  bool factorise() {
+    const CpuTimer timer(result_.times.factorise_s);
+    return system_.factorise(damping_);
+  }
+
+  std::vector<double> solve() {
+    const CpuTimer timer(result_.times.solve_s);
+    return system_.newton_step();
+  }
+
+  /// The step is expected to gain next to nothing, or to move next to nothing. -g.step / 2 is the gain of the
+  /// quadratic model without damping.
+  [[nodiscard]] bool is_small(std::span<const double> step) const {
+    return -0.5 * dot(system_.gradient(), step) <= options_.relative_tolerance * result_.final_cost ||
+           largest(step) < options_.step_tolerance;
+  }
+
+  void raise_damping() { damping_ = std::max(kLeastDamping, 10 * damping_); }
+
+  /// Takes the step if it lowers the cost; otherwise leaves the system as it was linearised before.
+  bool try_step(std::span<const double> step) {
+    std::vector<Pose2> next = system_.moved(result_.poses, step);
+    const double before = result_.final_cost;
+    std::swap(next, result_.poses);
+    relinearise();
+    if (result_.final_cost <= before * (1 + 1e-12)) return true;
+    std::swap(next, result_.poses);
+    relinearise();
+    return false;
+  }
+
+  void iterate() {
+    ++result_.iterations;
+    if (!factorise()) {
+      raise_damping();
+      if (damping_ > kMostDamping) result_.status = FitStatus::not_positive_definite;
+      return;
     }
-    if (!lowered) result.status = damping > 1 ? FitStatus::not_positive_definite : FitStatus::converged;
-    if (!lowered || result.status == FitStatus::converged) break;
+    std::vector<double> step = solve();
+    const bool small = damping_ == 0 && is_small(step);
+    if (!try_step(step)) {
+      raise_damping();
+      // No step however short lowers the cost: rounding is all that is left.
+      if (small || damping_ > kMostDamping) result_.status = FitStatus::converged;
+      return;
+    }
+    const bool undamped = damping_ == 0;
+    damping_ = damping_ > kLeastDamping ? 0.1 * damping_ : 0;
+    if (small) result_.status = FitStatus::converged;
+    if (small || !undamped) return;
+    // The factor at hand is nearly right for the next step too: where that is the last one, it need not be made anew.
+    step = solve();
+    if (is_small(step)) {
+      try_step(step);
+      result_.status = FitStatus::converged;
+    }
+  }
+
+  LinearSystem& system_;
+  const FitOptions& options_;
+  FitResult& result_;
+  double damping_ = 0;
+};
+
+}  // namespace
+
+FitResult fit(const RelationGraph& graph, std::span<const std::uint32_t> fixed, const FitOptions& options) {
+  FitResult result;
+  result.poses = graph.poses;
+  if (graph.poses.empty() || graph.relations.empty()) return result;
+  const CpuTimer total(result.times.total_s);
+  std::unique_ptr<LinearSystem> system;
+  {
+    const CpuTimer timer(result.times.order_s);
+    system = std::make_unique<LinearSystem>(graph, fixed, options.ordering);
+  }
+  if (options.method == FitMethod::levenberg_marquardt) {
+    LevenbergMarquardt(*system, options, result).run();
+  } else {
+    descend(*system, options, result);
   }
   return result;
+}
+
+FitResult fit(const RelationGraph& graph, const FitOptions& options) {
+  return fit(graph, default_gauge(graph), options);
+}
+
+RelationGraph make_graph(std::span<const Pose2> start, std::span<const GraphEdge> edges) {
+  RelationGraph graph;
+  graph.poses.assign(start.begin(), start.end());
+  graph.relations.reserve(edges.size());
+  for (const GraphEdge& e : edges) graph.relations.push_back({e.a, e.b, Correspondences{e.form, e.scale, 0}, false});
+  return graph;
+}
+
+FitResult fit_graph(std::span<const Pose2> start, std::span<const GraphEdge> edges, std::uint32_t fixed,
+                    const FitOptions& options) {
+  if (start.size() < 2 || edges.empty()) {
+    FitResult result;
+    result.poses.assign(start.begin(), start.end());
+    return result;
+  }
+  const std::uint32_t gauge[] = {fixed};
+  return fit(make_graph(start, edges), gauge, options);
 }
 
 }  // namespace helicoid

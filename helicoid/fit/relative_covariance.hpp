@@ -1,5 +1,5 @@
-// Exact confidence (eq. 9-10): the covariance of one pose relative to another from the factorised information of the
-// whole graph. A few right-hand sides a pair; never a dense inverse.
+// Exact confidence (eq. 9-10): covariances of poses relative to others from the factorised information of the whole
+// graph. A few right-hand sides a pair, or selected inversion for all poses at once; never a dense inverse.
 #pragma once
 
 #include <memory>
@@ -10,24 +10,34 @@
 
 namespace helicoid {
 
-class NormalEquations;
+class LinearSystem;
 
-/// Factorises once, answers many. The answers do not depend on which pose is held.
+/// Factorises once, answers many. The answers do not depend on which pose is held. A graph that priors tie to the
+/// world is answered without them: they say nothing of one pose relative to another while that one is held.
 class RelativeCovariance {
  public:
   /// All poses must be tied together by the edges.
   RelativeCovariance(std::span<const Pose2> poses, std::span<const GraphEdge> edges);
+  explicit RelativeCovariance(RelationGraph graph);
   ~RelativeCovariance();
 
   /// False if the relations leave some pose open: then nothing is known, not "well known".
   [[nodiscard]] bool is_determined() const { return determined_; }
   /// T_a_b with the covariance of its (x, y, yaw) in a's frame; a noise floor of the scans is not included.
   [[nodiscard]] UncertainPose2 of(std::uint32_t a, std::uint32_t b) const;
+  /// Of every pose relative to a, in a's frame. Factorises with a held.
+  [[nodiscard]] std::vector<UncertainPose2> relative_to(std::uint32_t a);
 
  private:
-  std::vector<Pose2> poses_;
-  std::unique_ptr<NormalEquations> equations_;
+  bool factorise(std::uint32_t held);
+
+  RelationGraph graph_;
+  std::unique_ptr<LinearSystem> system_;
+  std::uint32_t held_ = 0;
   bool determined_ = false;
 };
+
+/// Derivative of (t_x, t_y, phi) of T_a_b by the twists (xi_a, xi_b); 3 x 6.
+[[nodiscard]] Eigen::Matrix<double, 3, 6> relative_jacobian(const Pose2& T_a_b);
 
 }  // namespace helicoid

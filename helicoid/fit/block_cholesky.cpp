@@ -1,0 +1,158 @@
+#include "helicoid/fit/block_cholesky.hpp"
+
+#include <algorithm>
+
+namespace helicoid {
+
+void BlockMatrix::set_zero() {
+  std::fill(diagonal.begin(), diagonal.end(), 0.0);
+  std::fill(below.begin(), below.end(), 0.0);
+}
+
+BlockMatrix make_block_matrix(const Adjacency& graph, const Supernodes& supernodes) {
+  BlockMatrix H;
+  H.diagonal.assign(9 * supernodes.order.size(), 0.0);
+  H.first.push_back(0);
+  H.row.reserve(graph.neighbours.size() / 2);
+  for (std::int32_t k = 0; k < supernodes.nodes(); ++k) {
+    for (const std::int32_t neighbour : graph.of(supernodes.order[k])) {
+      if (supernodes.place[neighbour] > k) H.row.push_back(supernodes.place[neighbour]);
+    }
+    std::sort(H.row.begin() + static_cast<std::ptrdiff_t>(H.first.back()), H.row.end());
+    H.first.push_back(H.row.size());
+  }
+  H.below.assign(9 * H.row.size(), 0.0);
+  return H;
+}
+
+BlockCholesky::BlockCholesky(const Supernodes& supernodes, const FrontKernels& kernels)
+    : supernodes_(&supernodes), kernels_(&kernels), panels_(supernodes.panels) {
+  // Parents follow their children, so that at a supernode its children's updates lie on top of the other depth's stack.
+  std::size_t work = 0;
+  std::size_t top[2] = {0, 0};
+  std::size_t most[2] = {0, 0};
+  std::vector<std::size_t> released(supernodes.tree.size(), SIZE_MAX);
+  update_at_.resize(supernodes.tree.size());
+  for (std::size_t k = 0; k < supernodes.tree.size(); ++k) {
+    const Supernode& s = supernodes.tree[k];
+    work = std::max(work, s.shape().workspace_size());
+    const int parity = s.depth % 2;
+    update_at_[k] = top[parity];
+    top[parity] += s.shape().update_size();
+    most[parity] = std::max(most[parity], top[parity]);
+    if (released[k] != SIZE_MAX) top[1 - parity] = released[k];
+    if (s.parent >= 0) released[s.parent] = std::min(released[s.parent], update_at_[k]);
+  }
+  workspace_.resize(work);
+  for (int parity = 0; parity < 2; ++parity) stacks_[parity].resize(most[parity] + kStrip);
+}
+
+void BlockCholesky::prepare(const BlockMatrix& H) {
+  if (block_at_.size() == H.row.size()) return;
+  block_at_.resize(H.row.size());
+  for (std::int32_t node = 0; node < H.nodes(); ++node) {
+    const Supernode& s = supernodes_->tree[supernodes_->of[node]];
+    const auto leading = static_cast<std::size_t>(s.shape().leading());
+    const std::size_t column = s.panel + kBlock * static_cast<std::size_t>(node - s.first) * leading;
+    for (std::size_t e = H.first[node]; e < H.first[node + 1]; ++e) {
+      block_at_[e] = column + static_cast<std::size_t>(supernodes_->panel_row(s, H.row[e]));
+    }
+  }
+}
+
+void BlockCholesky::assemble(const BlockMatrix& H, const Supernode& s, double damping) {
+  const auto leading = static_cast<std::size_t>(s.shape().leading());
+  std::fill_n(panels_.begin() + static_cast<std::ptrdiff_t>(s.panel), s.shape().panel_size(), 0.0);
+  for (std::int32_t node = s.first; node < s.first + s.count; ++node) {
+    const auto local = kBlock * static_cast<std::size_t>(node - s.first);
+    double* block = panels_.data() + s.panel + local * (leading + 1);
+    const double* from = H.diagonal.data() + 9 * static_cast<std::size_t>(node);
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t i = 0; i < 3; ++i) block[i + j * leading] = from[i + 3 * j];
+      block[j + j * leading] *= 1 + damping;
+    }
+    for (std::size_t e = H.first[node]; e < H.first[node + 1]; ++e) {
+      double* place = panels_.data() + block_at_[e];
+      const double* value = H.below.data() + 9 * e;
+      for (std::size_t j = 0; j < 3; ++j) {
+        for (std::size_t i = 0; i < 3; ++i) place[i + j * leading] = value[i + 3 * j];
+      }
+    }
+  }
+}
+
+void BlockCholesky::add_update(const Supernode& child, const double* update, const Supernode& parent,
+                               double* parent_update) {
+  const FrontShape shape = parent.shape();
+  const auto runs = supernodes_->runs_of(child);
+  const std::ptrdiff_t child_leading = padded(kBlock * child.below);
+  const std::ptrdiff_t update_leading = padded(shape.below);
+  const std::int32_t first_below = shape.first_below();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const FrontRun& columns = runs[r];
+    const bool in_panel = columns.to < first_below;
+    for (std::int32_t c = 0; c < columns.length; ++c) {
+      const double* source = update + (columns.from + c) * child_leading;
+      // Rows count from the start of this column's storage: the whole panel, or what is below.
+      double* target = in_panel ? panels_.data() + parent.panel + (columns.to + c) * static_cast<std::ptrdiff_t>(shape.leading())
+                                : parent_update + (columns.to + c - first_below) * update_leading - first_below;
+      for (std::int32_t i = c; i < columns.length; ++i) target[columns.to + i] += source[columns.from + i];
+      for (std::size_t q = r + 1; q < runs.size(); ++q) {
+        double* to = target + runs[q].to;
+        const double* from = source + runs[q].from;
+        const std::int32_t length = runs[q].length;
+        for (std::int32_t i = 0; i < length; i += 3) {
+          to[i] += from[i];
+          to[i + 1] += from[i + 1];
+          to[i + 2] += from[i + 2];
+        }
+      }
+    }
+  }
+}
+
+bool BlockCholesky::factorise(const BlockMatrix& H, double damping) {
+  prepare(H);
+  const auto& tree = supernodes_->tree;
+  // Children of the supernode at hand are the last ones on the pending list.
+  std::vector<std::int32_t> pending;
+  for (std::size_t k = 0; k < tree.size(); ++k) {
+    const Supernode& s = tree[k];
+    assemble(H, s, damping);
+    double* update = stacks_[s.depth % 2].data() + update_at_[k];
+    std::fill_n(update, s.shape().update_size(), 0.0);
+    for (; !pending.empty() && tree[pending.back()].parent == static_cast<std::int32_t>(k); pending.pop_back()) {
+      const Supernode& child = tree[pending.back()];
+      add_update(child, stacks_[child.depth % 2].data() + update_at_[pending.back()], s, update);
+    }
+    if (!kernels_->eliminate(s.shape(), panels_.data() + s.panel, update, workspace_.data())) return false;
+    if (s.parent >= 0) pending.push_back(static_cast<std::int32_t>(k));
+  }
+  return true;
+}
+
+void BlockCholesky::solve(std::span<double> x) const {
+  const auto& tree = supernodes_->tree;
+  std::vector<double> below;
+  const auto gather = [&](const Supernode& s) {
+    below.assign(static_cast<std::size_t>(padded(kBlock * s.below)), 0.0);
+    double* to = below.data();
+    for (const std::int32_t row : supernodes_->rows_of(s)) {
+      for (int i = 0; i < kBlock; ++i) *to++ = x[kBlock * static_cast<std::size_t>(row) + static_cast<std::size_t>(i)];
+    }
+  };
+  for (const Supernode& s : tree) {
+    gather(s);
+    kernels_->forward(s.shape(), panels_.data() + s.panel, x.data() + kBlock * s.first, below.data());
+    const double* from = below.data();
+    for (const std::int32_t row : supernodes_->rows_of(s)) {
+      for (int i = 0; i < kBlock; ++i) x[kBlock * static_cast<std::size_t>(row) + static_cast<std::size_t>(i)] = *from++;
+    }
+  }
+  for (std::size_t k = tree.size(); k-- > 0;) {
+    gather(tree[k]);
+    kernels_->backward(tree[k].shape(), panels_.data() + tree[k].panel, x.data() + kBlock * tree[k].first, below.data());
+  }
+}
+
+}  // namespace helicoid

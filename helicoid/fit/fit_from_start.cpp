@@ -1,0 +1,84 @@
+#include "helicoid/fit/fit_from_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/fit/cpu_clock.hpp"
+
+#include "helicoid/fit/initial_guess.hpp"
+#include "helicoid/fit/robust_fit.hpp"
+
+namespace helicoid {
+
+namespace {
+
+std::int64_t residuals_of(const Measurement& measurement) {
+  if (std::holds_alternative<PosePose>(measurement) || std::holds_alternative<Correspondences>(measurement)) return 3;
+  return std::holds_alternative<PointPosition>(measurement) ? 2 : 1;
+}
+
+/// What correspondences cost at their own best is no contradiction between relations.
+double least_cost(const RelationGraph& graph) {
+  double sum = 0;
+  for (const GraphRelation& r : graph.relations) {
+    if (const auto* m = std::get_if<Correspondences>(&r.measurement)) sum += m->scale * m->least_cost;
+  }
+  return sum;
+}
+
+/// The 99.9 % quantile of chi^2 (Wilson and Hilferty 1931).
+double chi_square_bound(std::int64_t degrees) {
+  const auto k = static_cast<double>(degrees);
+  const double a = 2 / (9 * k);
+  const double root = 1 - a + 3.0902 * std::sqrt(a);
+  return k * root * root * root;
+}
+
+StartedFit fit_once(const RelationGraph& graph, FitStart start, const FitOptions& options) {
+  StartedFit started;
+  started.start = start;
+  RobustFit robust = fit_robustly(graph, default_gauge(graph), options);
+  started.result = std::move(robust.result);
+  started.wrong_relations = robust.wrong.size();
+  started.degrees_of_freedom = degrees_of_freedom(graph);
+  const double chi2 = 2 * (started.result.final_cost - least_cost(graph));
+  started.is_plausible = started.result.status == FitStatus::converged &&
+                         (started.degrees_of_freedom > 0 ? chi2 <= chi_square_bound(started.degrees_of_freedom)
+                                                         : chi2 <= 1e-6 * std::max(1.0, 2 * started.result.initial_cost));
+  return started;
+}
+
+StartedFit fit_at(RelationGraph graph, FitStart start, const FitOptions& options) {
+  if (start == FitStart::given) return fit_once(graph, start, options);
+  double seconds = 0;
+  {
+    const CpuTimer timer(seconds);
+    graph.poses = start == FitStart::chordal ? chordal_start(graph) : odometry_start(graph);
+  }
+  StartedFit started = fit_once(graph, start, options);
+  started.result.times.total_s += seconds;
+  return started;
+}
+
+}  // namespace
+
+std::int64_t degrees_of_freedom(const RelationGraph& graph) {
+  std::int64_t degrees = 0;
+  for (const GraphRelation& r : graph.relations) degrees += residuals_of(r.measurement);
+  for (std::size_t i = 0; i < graph.poses.size(); ++i) degrees -= !graph.is_landmark.empty() && graph.is_landmark[i] ? 2 : 3;
+  return degrees + 3 * static_cast<std::int64_t>(default_gauge(graph).size());
+}
+
+StartedFit fit_from(const RelationGraph& graph, FitStart start, const FitOptions& options) {
+  if (start != FitStart::automatic) return fit_at(graph, start, options);
+  // A given start is tried as long as undamped steps lead downhill; that is the right basin as a rule.
+  StartedFit first = fit_at(graph, FitStart::given, options);
+  if (first.is_plausible) return first;
+  StartedFit second = fit_at(graph, FitStart::chordal, options);
+  const double spent = first.result.times.total_s + second.result.times.total_s;
+  StartedFit& best = second.result.final_cost < first.result.final_cost ? second : first;
+  best.result.times.total_s = spent;
+  return best;
+}
+
+}  // namespace helicoid

@@ -1,0 +1,30 @@
+// A fit together with the choice of where to begin, and what can be said of the optimum.
+#pragma once
+
+#include "helicoid/fit/fit_graph.hpp"
+
+namespace helicoid {
+
+enum class FitStart : std::uint8_t {
+  given,      ///< graph.poses
+  odometry,   ///< dead reckoning
+  chordal,
+  automatic,  ///< as given; where that meets trouble or ends in an implausible optimum, chordal, and the better of both
+};
+
+struct StartedFit {
+  FitResult result;
+  FitStart start = FitStart::given;  ///< the one that led there
+  std::int64_t degrees_of_freedom = 0;  ///< residuals less unknowns
+  std::size_t wrong_relations = 0;      ///< that a truncated loss let go
+  /// Not a certificate of the global optimum, but what the data can say: chi^2 at the optimum is no larger than noise as
+  /// stated makes it in 99.9 % of cases. False: the optimum may be local, or relations contradict each other.
+  bool is_plausible = false;
+};
+
+[[nodiscard]] StartedFit fit_from(const RelationGraph& graph, FitStart start, const FitOptions& options = {});
+
+/// Residuals less unknowns, the gauge not counted; correspondences count three residuals a pair.
+[[nodiscard]] std::int64_t degrees_of_freedom(const RelationGraph& graph);
+
+}  // namespace helicoid

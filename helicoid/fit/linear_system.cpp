@@ -1,0 +1,184 @@
+#include "helicoid/fit/linear_system.hpp"
+
+#include <algorithm>
+
+namespace helicoid {
+
+namespace {
+
+Adjacency adjacency_of(const RelationGraph& graph) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  pairs.reserve(graph.relations.size());
+  for (const GraphRelation& r : graph.relations) {
+    if (r.a != kWorld) pairs.emplace_back(static_cast<std::int32_t>(r.a), static_cast<std::int32_t>(r.b));
+  }
+  return find_adjacency(static_cast<std::int32_t>(graph.poses.size()), pairs);
+}
+
+/// d(t_x, t_y, phi) of T_a_b by the twist of a.
+Matrix3d by_first(const RelativePose& T) {
+  Matrix3d J = -Matrix3d::Identity();
+  J(0, 2) = T.y;
+  J(1, 2) = -T.x;
+  return J;
+}
+
+/// And by the twist of b.
+Matrix3d by_second(const RelativePose& T) {
+  Matrix3d J = Matrix3d::Identity();
+  J(0, 0) = J(1, 1) = T.cosine;
+  J(0, 1) = -T.sine;
+  J(1, 0) = T.sine;
+  return J;
+}
+
+/// The loss on the excess over what the relation costs at its best.
+void soften(const GraphRelation& r, const RobustLoss& loss, PairExpansion& pair) {
+  if (loss.kind == LossKind::quadratic || !r.may_be_wrong) return;
+  const auto* form = std::get_if<Correspondences>(&r.measurement);
+  const double least = form != nullptr ? form->scale * form->least_cost : 0;
+  const Loss softened = evaluate(loss, std::max(0.0, 2 * (pair.cost - least)));
+  pair.cost = least + 0.5 * softened.value;
+  pair.gradient *= softened.weight;
+  pair.information *= softened.weight;
+}
+
+}  // namespace
+
+LinearSystem::LinearSystem(const RelationGraph& graph, std::span<const std::uint32_t> fixed, Ordering ordering)
+    : graph_(&graph), adjacency_(adjacency_of(graph)),
+      supernodes_(find_supernodes(adjacency_, find_elimination_order(adjacency_, ordering))),
+      H_(make_block_matrix(adjacency_, supernodes_)), gradient_(kBlock * graph.poses.size()), cholesky_(supernodes_) {
+  if (!graph.is_landmark.empty()) {
+    for (const std::int32_t node : supernodes_.order) has_no_heading_.push_back(graph.is_landmark[node]);
+  }
+  hold(fixed);
+  tie_up();
+}
+
+void LinearSystem::hold(std::span<const std::uint32_t> fixed) {
+  is_fixed_.assign(graph_->poses.size(), false);
+  for (const std::uint32_t node : fixed) is_fixed_[static_cast<std::size_t>(supernodes_.place[node])] = true;
+}
+
+void LinearSystem::tie_up() {
+  ties_.reserve(graph_->relations.size());
+  for (std::uint32_t i = 0; i < graph_->relations.size(); ++i) {
+    const GraphRelation& r = graph_->relations[i];
+    Tie tie{r.a == kWorld ? -1 : supernodes_.place[r.a], supernodes_.place[r.b], i, 0};
+    if (tie.a >= 0) {
+      const std::int32_t column = std::min(tie.a, tie.b);
+      const auto begin = H_.row.begin() + static_cast<std::ptrdiff_t>(H_.first[column]);
+      const auto end = H_.row.begin() + static_cast<std::ptrdiff_t>(H_.first[column + 1]);
+      tie.block = static_cast<std::size_t>(std::lower_bound(begin, end, std::max(tie.a, tie.b)) - H_.row.begin());
+    }
+    ties_.push_back(tie);
+  }
+  std::stable_sort(ties_.begin(), ties_.end(), [](const Tie& l, const Tie& r) { return l.block < r.block; });
+}
+
+std::vector<LinearSystem::Frame> LinearSystem::frames(std::span<const Pose2> poses) const {
+  std::vector<Frame> result(poses.size());
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const Pose2& T = poses[static_cast<std::size_t>(supernodes_.order[k])];
+    result[k] = {T.x, T.y, T.yaw, std::cos(T.yaw), std::sin(T.yaw)};
+  }
+  return result;
+}
+
+RelativePose LinearSystem::relative(const Frame& a, const Frame& b) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  return {a.cosine * dx + a.sine * dy, a.cosine * dy - a.sine * dx, b.yaw - a.yaw,
+          a.cosine * b.cosine + a.sine * b.sine, a.cosine * b.sine - a.sine * b.cosine};
+}
+
+double LinearSystem::cost(std::span<const Pose2> poses, const RobustLoss& loss) const {
+  const std::vector<Frame> nodes = frames(poses);
+  const Frame world{0, 0, 0, 1, 0};
+  double sum = 0;
+  for (const Tie& tie : ties_) {
+    const GraphRelation& r = graph_->relations[tie.relation];
+    PairExpansion pair = expand(r.measurement, relative(tie.a < 0 ? world : nodes[tie.a], nodes[tie.b]));
+    soften(r, loss, pair);
+    sum += pair.cost;
+  }
+  return sum;
+}
+
+double LinearSystem::linearise(std::span<const Pose2> poses, const RobustLoss& loss) {
+  H_.set_zero();
+  std::fill(gradient_.begin(), gradient_.end(), 0.0);
+  const std::vector<Frame> nodes = frames(poses);
+  const Frame world{0, 0, 0, 1, 0};
+  double sum = 0;
+  for (const Tie& tie : ties_) {
+    const GraphRelation& r = graph_->relations[tie.relation];
+    const RelativePose T_a_b = relative(tie.a < 0 ? world : nodes[tie.a], nodes[tie.b]);
+    PairExpansion pair = expand(r.measurement, T_a_b);
+    soften(r, loss, pair);
+    sum += pair.cost;
+    add(tie, pair, T_a_b);
+  }
+  close_fixed();
+  return sum;
+}
+
+void LinearSystem::add(const Tie& tie, const PairExpansion& pair, const RelativePose& T_a_b) {
+  using Block = Eigen::Map<Matrix3d>;
+  using Segment = Eigen::Map<Vector3d>;
+  const bool a_moves = tie.a >= 0 && !is_fixed_[static_cast<std::size_t>(tie.a)];
+  const bool b_moves = !is_fixed_[static_cast<std::size_t>(tie.b)];
+  Matrix3d J_a = by_first(T_a_b);
+  Matrix3d J_b = by_second(T_a_b);
+  if (!has_no_heading_.empty()) {
+    if (tie.a >= 0 && has_no_heading_[static_cast<std::size_t>(tie.a)]) J_a.col(2).setZero();
+    if (has_no_heading_[static_cast<std::size_t>(tie.b)]) J_b.col(2).setZero();
+  }
+  const Matrix3d W_a = pair.information * J_a;
+  const Matrix3d W_b = pair.information * J_b;
+  if (a_moves) {
+    Segment(gradient_.data() + kBlock * tie.a).noalias() += J_a.transpose() * pair.gradient;
+    Block(H_.diagonal.data() + 9 * static_cast<std::size_t>(tie.a)).noalias() += J_a.transpose() * W_a;
+  }
+  if (b_moves) {
+    Segment(gradient_.data() + kBlock * tie.b).noalias() += J_b.transpose() * pair.gradient;
+    Block(H_.diagonal.data() + 9 * static_cast<std::size_t>(tie.b)).noalias() += J_b.transpose() * W_b;
+  }
+  if (!a_moves || !b_moves) return;
+  Block block(H_.below.data() + 9 * tie.block);
+  if (tie.a > tie.b) {
+    block.noalias() += J_a.transpose() * W_b;
+  } else {
+    block.noalias() += J_b.transpose() * W_a;
+  }
+}
+
+void LinearSystem::close_fixed() {
+  for (std::size_t k = 0; k < is_fixed_.size(); ++k) {
+    double* block = H_.diagonal.data() + 9 * k;
+    if (is_fixed_[k]) {
+      block[0] = block[4] = block[8] = 1;
+    } else if (!has_no_heading_.empty() && has_no_heading_[k]) {
+      block[8] = 1;
+    }
+  }
+}
+
+std::vector<double> LinearSystem::newton_step() const {
+  std::vector<double> step(gradient_.size());
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] = -gradient_[i];
+  cholesky_.solve(step);
+  return step;
+}
+
+std::vector<Pose2> LinearSystem::moved(std::span<const Pose2> poses, std::span<const double> step, double scale) const {
+  std::vector<Pose2> result(poses.begin(), poses.end());
+  for (std::uint32_t i = 0; i < result.size(); ++i) {
+    const double* xi = step.data() + offset(i);
+    result[i] = result[i] * exponential(Vector3d(scale * xi[0], scale * xi[1], scale * xi[2]));
+  }
+  return result;
+}
+
+}  // namespace helicoid

@@ -1,0 +1,56 @@
+#include "helicoid/fit/relation_graph.hpp"
+
+#include <numeric>
+
+namespace helicoid {
+
+std::vector<Component> find_components(const RelationGraph& graph) {
+  std::vector<std::uint32_t> root(graph.poses.size());
+  std::iota(root.begin(), root.end(), 0U);
+  const auto find = [&root](std::uint32_t node) {
+    while (root[node] != node) node = root[node] = root[root[node]];
+    return node;
+  };
+  for (const GraphRelation& r : graph.relations) {
+    if (r.a == kWorld) continue;
+    const std::uint32_t a = find(r.a);
+    const std::uint32_t b = find(r.b);
+    // The lowest node is the root.
+    if (a < b) root[b] = a;
+    if (b < a) root[a] = b;
+  }
+  std::vector<Component> components;
+  std::vector<std::size_t> number(graph.poses.size());
+  for (std::uint32_t i = 0; i < graph.poses.size(); ++i) {
+    const std::uint32_t top = find(i);
+    if (top == i) {
+      number[i] = components.size();
+      components.emplace_back();
+    }
+    components[number[top]].nodes.push_back(i);
+  }
+  for (const GraphRelation& r : graph.relations) {
+    if (r.a == kWorld) components[number[find(r.b)]].has_prior = true;
+  }
+  return components;
+}
+
+std::vector<std::uint32_t> default_gauge(const RelationGraph& graph) {
+  std::vector<std::uint32_t> gauge;
+  for (const Component& component : find_components(graph)) {
+    if (component.has_prior) continue;
+    std::uint32_t first = component.nodes.front();
+    if (!graph.is_landmark.empty()) {
+      for (const std::uint32_t node : component.nodes) {
+        if (!graph.is_landmark[node]) {
+          first = node;
+          break;
+        }
+      }
+    }
+    gauge.push_back(first);
+  }
+  return gauge;
+}
+
+}  // namespace helicoid
