@@ -124,7 +124,8 @@ int run_verb(const FitArguments& a) {
     report_warning(fmt::format("{}: has no VERTEX lines; the fit starts from the odometry chain", a.graph));
   }
   if (!all_placed) file->graph.poses = odometry_start(file->graph, file->is_placed);
-  const StartedFit started = fit_from(file->graph, start, options);
+  StartedFit started = fit_from(file->graph, start, options);
+  if (none_placed && started.start == FitStart::given) started.start = FitStart::odometry;
   if (!a.out.empty()) {
     if (auto done = write_whole_file(a.out, to_graph_text(*file, started.result.poses)); !done) {
       return report_failure(done.error().message);

@@ -71,11 +71,17 @@ std::int64_t degrees_of_freedom(const RelationGraph& graph) {
 
 StartedFit fit_from(const RelationGraph& graph, FitStart start, const FitOptions& options) {
   if (start != FitStart::automatic) return fit_at(graph, start, options);
-  // A given start is tried as long as undamped steps lead downhill; that is the right basin as a rule.
-  StartedFit first = fit_at(graph, FitStart::given, options);
+  // As long as undamped steps lead downhill the start lies in a good basin, as a rule.
+  FitOptions brisk = options;
+  brisk.gives_up_early = true;
+  StartedFit first = fit_at(graph, FitStart::given, brisk);
   if (first.is_plausible) return first;
   StartedFit second = fit_at(graph, FitStart::chordal, options);
-  const double spent = first.result.times.total_s + second.result.times.total_s;
+  double spent = first.result.times.total_s + second.result.times.total_s;
+  if (!second.is_plausible && first.result.status == FitStatus::cost_rose) {
+    first = fit_at(graph, FitStart::given, options);
+    spent += first.result.times.total_s;
+  }
   StartedFit& best = second.result.final_cost < first.result.final_cost ? second : first;
   best.result.times.total_s = spent;
   return best;

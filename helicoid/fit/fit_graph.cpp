@@ -12,7 +12,9 @@ namespace helicoid {
 
 namespace {
 
-constexpr double kLeastDamping = 1e-6;
+/// Long open chains have modes that are softer than the diagonal by nine orders of magnitude; damping that starts higher
+/// freezes them.
+constexpr double kLeastDamping = 1e-9;
 constexpr double kMostDamping = 1e6;
 
 double dot(std::span<const double> a, std::span<const double> b) {
@@ -64,7 +66,28 @@ class LevenbergMarquardt {
            largest(step) < options_.step_tolerance;
   }
 
-  void raise_damping() { damping_ = std::max(kLeastDamping, 10 * damping_); }
+  /// What the quadratic model of this damping gains: -g.s/2 + damping/2 s^T diag(H) s.
+  [[nodiscard]] double expected_gain(std::span<const double> step) const {
+    double gain = -0.5 * dot(system_.gradient(), step);
+    const std::vector<double>& diagonal = system_.information().diagonal;
+    for (std::size_t i = 0; i < step.size() && damping_ > 0; ++i) {
+      gain += 0.5 * damping_ * diagonal[9 * (i / 3) + 4 * (i % 3)] * step[i] * step[i];
+    }
+    return gain;
+  }
+
+  /// Ever faster, so that a bad start costs few factorisations (Nielsen 1999).
+  void raise_damping() {
+    damping_ = std::max(kLeastDamping, growth_ * damping_);
+    growth_ *= 2;
+  }
+
+  /// Less, as the model proves right.
+  void lower_damping(double gain_ratio) {
+    growth_ = 10;
+    if (gain_ratio > 0.5) damping_ *= gain_ratio > 0.9 ? 0.03 : 0.2;
+    if (damping_ < kLeastDamping) damping_ = 0;
+  }
 
   /// Takes the step if it lowers the cost; otherwise leaves the system as it was linearised before.
   bool try_step(std::span<const double> step) {
@@ -87,14 +110,20 @@ class LevenbergMarquardt {
     }
     std::vector<double> step = solve();
     const bool small = damping_ == 0 && is_small(step);
+    const double expected = expected_gain(step);
+    const double before = result_.final_cost;
     if (!try_step(step)) {
       raise_damping();
       // No step however short lowers the cost: rounding is all that is left.
-      if (small || damping_ > kMostDamping) result_.status = FitStatus::converged;
+      if (small || damping_ > kMostDamping) {
+        result_.status = FitStatus::converged;
+      } else if (options_.gives_up_early) {
+        result_.status = FitStatus::cost_rose;
+      }
       return;
     }
     const bool undamped = damping_ == 0;
-    damping_ = damping_ > kLeastDamping ? 0.1 * damping_ : 0;
+    lower_damping((before - result_.final_cost) / expected);
     if (small) result_.status = FitStatus::converged;
     if (small || !undamped) return;
     // The factor at hand is nearly right for the next step too: where that is the last one, it need not be made anew.
@@ -109,6 +138,7 @@ class LevenbergMarquardt {
   const FitOptions& options_;
   FitResult& result_;
   double damping_ = 0;
+  double growth_ = 10;
 };
 
 }  // namespace

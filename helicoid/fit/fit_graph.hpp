@@ -11,7 +11,7 @@
 
 namespace helicoid {
 
-enum class FitStatus : std::uint8_t { converged, iteration_limit, not_positive_definite, nothing_to_fit };
+enum class FitStatus : std::uint8_t { converged, iteration_limit, not_positive_definite, nothing_to_fit, cost_rose };
 enum class FitMethod : std::uint8_t { levenberg_marquardt, fletcher_reeves, gradient_descent };
 
 struct FitOptions {
@@ -19,6 +19,7 @@ struct FitOptions {
   int max_iterations = 100;          ///< the first-order methods take a thousand times as many
   double relative_tolerance = 1e-7;  ///< of the cost: ends when a step is expected to gain less
   double step_tolerance = 1e-6;      ///< or to move every pose by less, metres or radians
+  bool gives_up_early = false;       ///< ends with `cost_rose` where damping would begin: another start may be better
   RobustLoss loss;                   ///< acts on relations that may be wrong
   Ordering ordering = Ordering::automatic;
 };
