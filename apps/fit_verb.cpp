@@ -32,12 +32,16 @@ struct FitArguments {
   bool json = false;
 };
 
-const std::map<std::string, FitStart> kStarts = {{"file", FitStart::given}, {"odometry", FitStart::odometry},
-                                                 {"chordal", FitStart::chordal}, {"auto", FitStart::automatic}};
-const std::map<std::string, FitMethod> kMethods = {{"lm", FitMethod::levenberg_marquardt},
-                                                   {"fr", FitMethod::fletcher_reeves}, {"gd", FitMethod::gradient_descent}};
-const std::map<std::string, LossKind> kLosses = {{"none", LossKind::quadratic}, {"huber", LossKind::huber},
-                                                 {"cauchy", LossKind::cauchy}, {"truncated", LossKind::truncated}};
+const std::map<std::string, FitStart> kStarts = {{"file", FitStart::given},
+                                                 {"odometry", FitStart::odometry},
+                                                 {"chordal", FitStart::chordal},
+                                                 {"auto", FitStart::automatic}};
+const std::map<std::string, FitMethod> kMethods = {
+    {"lm", FitMethod::levenberg_marquardt}, {"fr", FitMethod::fletcher_reeves}, {"gd", FitMethod::gradient_descent}};
+const std::map<std::string, LossKind> kLosses = {{"none", LossKind::quadratic},
+                                                 {"huber", LossKind::huber},
+                                                 {"cauchy", LossKind::cauchy},
+                                                 {"truncated", LossKind::truncated}};
 
 const char* name_of(FitStatus status) {
   switch (status) {
@@ -58,24 +62,40 @@ const char* name_of(FitStart start) {
 Json report_json(const GraphFile& file, const StartedFit& started) {
   const FitResult& r = started.result;
   Json skipped = Json::array();
-  for (const Skipped& s : file.skipped) skipped.push_back({{"reason", s.reason}, {"count", s.count}, {"first", s.first}});
-  return {{"format", "helicoid-fit"}, {"version", HELICOID_VERSION}, {"nodes", file.ids.size()},
-          {"relations", file.graph.relations.size()}, {"components", find_components(file.graph).size()},
-          {"initial_cost", 2 * r.initial_cost}, {"final_cost", 2 * r.final_cost}, {"iterations", r.iterations},
-          {"status", name_of(r.status)}, {"gradient_norm", r.gradient_norm}, {"start", name_of(started.start)},
+  for (const Skipped& s : file.skipped)
+    skipped.push_back({{"reason", s.reason}, {"count", s.count}, {"first", s.first}});
+  return {{"format", "helicoid-fit"},
+          {"version", HELICOID_VERSION},
+          {"nodes", file.ids.size()},
+          {"relations", file.graph.relations.size()},
+          {"components", find_components(file.graph).size()},
+          {"initial_cost", 2 * r.initial_cost},
+          {"final_cost", 2 * r.final_cost},
+          {"iterations", r.iterations},
+          {"status", name_of(r.status)},
+          {"gradient_norm", r.gradient_norm},
+          {"start", name_of(started.start)},
           {"optimum", started.is_plausible ? "consistent with the stated noise" : "may be local"},
-          {"degrees_of_freedom", started.degrees_of_freedom}, {"wrong_relations", started.wrong_relations},
-          {"order_s", r.times.order_s}, {"linearise_s", r.times.linearise_s}, {"factorise_s", r.times.factorise_s},
-          {"solve_s", r.times.solve_s}, {"total_s", r.times.total_s}, {"skipped", skipped}};
+          {"degrees_of_freedom", started.degrees_of_freedom},
+          {"wrong_relations", started.wrong_relations},
+          {"order_s", r.times.order_s},
+          {"linearise_s", r.times.linearise_s},
+          {"factorise_s", r.times.factorise_s},
+          {"solve_s", r.times.solve_s},
+          {"total_s", r.times.total_s},
+          {"skipped", skipped}};
 }
 
 void print_report(const GraphFile& file, const StartedFit& started) {
   const FitResult& r = started.result;
-  fmt::print("graph      {} nodes, {} relations\nstart      {}, cost {:.6f}\nfit        {} after {} iterations, cost {:.9g}, gradient {:.2g}\n",
-             file.ids.size(), file.graph.relations.size(), name_of(started.start), 2 * r.initial_cost, name_of(r.status),
-             r.iterations, 2 * r.final_cost, r.gradient_norm);
+  fmt::print(
+      "graph      {} nodes, {} relations\nstart      {}, cost {:.6f}\nfit        {} after {} iterations, cost {:.9g}, "
+      "gradient {:.2g}\n",
+      file.ids.size(), file.graph.relations.size(), name_of(started.start), 2 * r.initial_cost, name_of(r.status),
+      r.iterations, 2 * r.final_cost, r.gradient_norm);
   fmt::print("optimum    {}: chi^2 {:.6g} of {} degrees of freedom\n",
-             started.is_plausible ? "consistent with the stated noise" : "may be local, or the relations contradict each other",
+             started.is_plausible ? "consistent with the stated noise"
+                                  : "may be local, or the relations contradict each other",
              2 * r.final_cost, started.degrees_of_freedom);
   fmt::print("cpu        {:.4f} s: order {:.4f}, linearise {:.4f}, factorise {:.4f}, solve {:.4f}\n", r.times.total_s,
              r.times.order_s, r.times.linearise_s, r.times.factorise_s, r.times.solve_s);
@@ -87,7 +107,8 @@ Result<std::string> confidence_text(const GraphFile& file, const std::vector<Pos
   const auto at = std::lower_bound(file.ids.begin(), file.ids.end(), id);
   if (at == file.ids.end() || *at != id) return fail("{}: no node of the graph; name one with --relative-to", id);
   if (find_components(file.graph).size() > 1) {
-    return fail("the graph falls apart into {} components: nothing is known between them", find_components(file.graph).size());
+    return fail("the graph falls apart into {} components: nothing is known between them",
+                find_components(file.graph).size());
   }
   RelationGraph graph = file.graph;
   graph.poses = poses;
@@ -107,11 +128,13 @@ int run_verb(const FitArguments& a) {
   Result<GraphFile> file = read_graph(a.graph);
   if (!file) return report_failure(file.error().message);
   if (!file->warning.empty()) report_warning(file->warning);
-  for (const Skipped& s : file->skipped) report_warning(fmt::format("{} x {}, first at {}", s.count, s.reason, s.first));
+  for (const Skipped& s : file->skipped)
+    report_warning(fmt::format("{} x {}, first at {}", s.count, s.reason, s.first));
   const bool all_placed = std::find(file->is_placed.begin(), file->is_placed.end(), false) == file->is_placed.end();
   const std::size_t components = find_components(file->graph).size();
   if (components > 1) {
-    report_warning(fmt::format("{}: falls apart into {} components; each is fitted with its own lowest pose held", a.graph, components));
+    report_warning(fmt::format("{}: falls apart into {} components; each is fitted with its own lowest pose held",
+                               a.graph, components));
   }
   FitOptions options;
   options.method = kMethods.at(a.method);
@@ -151,20 +174,28 @@ void add_fit_verb(CLI::App& program, int& exit_code) {
   CLI::App* verb = program.add_subcommand("fit", "Fit a graph of relations (g2o or TORO)");
   verb->add_option("GRAPH", a->graph, "the graph, plain or .gz, - for stdin")->required();
   verb->add_option("--out", a->out, "write the fitted graph here");
-  verb->add_option("--init", a->init, "where to start")->check(CLI::IsMember({"file", "odometry", "chordal", "auto"}))
+  verb->add_option("--init", a->init, "where to start")
+      ->check(CLI::IsMember({"file", "odometry", "chordal", "auto"}))
       ->capture_default_str();
   verb->add_option("--method", a->method, "Levenberg-Marquardt, Fletcher-Reeves or gradient descent")
-      ->check(CLI::IsMember({"lm", "fr", "gd"}))->capture_default_str();
+      ->check(CLI::IsMember({"lm", "fr", "gd"}))
+      ->capture_default_str();
   verb->add_option("--loss", a->loss, "robust loss on relations between nodes that are not consecutive")
-      ->check(CLI::IsMember({"none", "huber", "cauchy", "truncated"}))->capture_default_str();
-  verb->add_option("--loss-width", a->width, "where the loss bends, in sigmas")->check(CLI::PositiveNumber)->capture_default_str();
-  verb->add_option("--max-iterations", a->max_iterations, "second-order iterations at most; first-order methods take 1000 times as many")
-      ->check(CLI::PositiveNumber)->capture_default_str();
+      ->check(CLI::IsMember({"none", "huber", "cauchy", "truncated"}))
+      ->capture_default_str();
+  verb->add_option("--loss-width", a->width, "where the loss bends, in sigmas")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--max-iterations", a->max_iterations,
+                   "second-order iterations at most; first-order methods take 1000 times as many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   verb->add_option("--confidence", a->confidence, "write `id sx sy syaw` lines here (1.96 sigma; m, m, rad)");
   verb->add_option("--relative-to", a->relative_to, "the node that confidence is relative to; default: the lowest id");
   verb->add_flag("--json", a->json, "print one JSON object");
-  verb->footer("Examples:\n  helicoid fit manhattan.g2o.gz --out fitted.g2o\n"
-               "  helicoid fit graph.g2o --confidence sigmas.txt --relative-to 0 --json");
+  verb->footer(
+      "Examples:\n  helicoid fit manhattan.g2o.gz --out fitted.g2o\n"
+      "  helicoid fit graph.g2o --confidence sigmas.txt --relative-to 0 --json");
   verb->callback([a, &exit_code] { exit_code = run_verb(*a); });
 }
 

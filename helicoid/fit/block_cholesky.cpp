@@ -69,7 +69,9 @@ void BlockCholesky::assemble(const BlockMatrix& H, const Supernode& s, double da
     const double* from = H.diagonal.data() + 9 * static_cast<std::size_t>(node);
     for (std::size_t j = 0; j < 3; ++j) {
       for (std::size_t i = 0; i < 3; ++i) block[i + j * leading] = from[i + 3 * j];
-      block[j + j * leading] *= 1 + damping;
+      // Of what is not tied at all a share of nothing would be nothing.
+      const double own = from[4 * j];
+      block[j + j * leading] += damping * (own > 0 ? own : 1 + from[0] + from[4] + from[8]);
     }
     for (std::size_t e = H.first[node]; e < H.first[node + 1]; ++e) {
       double* place = panels_.data() + block_at_[e];
@@ -94,8 +96,9 @@ void BlockCholesky::add_update(const Supernode& child, const double* update, con
     for (std::int32_t c = 0; c < columns.length; ++c) {
       const double* source = update + (columns.from + c) * child_leading;
       // Rows count from the start of this column's storage: the whole panel, or what is below.
-      double* target = in_panel ? panels_.data() + parent.panel + (columns.to + c) * static_cast<std::ptrdiff_t>(shape.leading())
-                                : parent_update + (columns.to + c - first_below) * update_leading - first_below;
+      double* target =
+          in_panel ? panels_.data() + parent.panel + (columns.to + c) * static_cast<std::ptrdiff_t>(shape.leading())
+                   : parent_update + (columns.to + c - first_below) * update_leading - first_below;
       for (std::int32_t i = c; i < columns.length; ++i) target[columns.to + i] += source[columns.from + i];
       for (std::size_t q = r + 1; q < runs.size(); ++q) {
         double* to = target + runs[q].to;
@@ -146,12 +149,14 @@ void BlockCholesky::solve(std::span<double> x) const {
     kernels_->forward(s.shape(), panels_.data() + s.panel, x.data() + kBlock * s.first, below.data());
     const double* from = below.data();
     for (const std::int32_t row : supernodes_->rows_of(s)) {
-      for (int i = 0; i < kBlock; ++i) x[kBlock * static_cast<std::size_t>(row) + static_cast<std::size_t>(i)] = *from++;
+      for (int i = 0; i < kBlock; ++i)
+        x[kBlock * static_cast<std::size_t>(row) + static_cast<std::size_t>(i)] = *from++;
     }
   }
   for (std::size_t k = tree.size(); k-- > 0;) {
     gather(tree[k]);
-    kernels_->backward(tree[k].shape(), panels_.data() + tree[k].panel, x.data() + kBlock * tree[k].first, below.data());
+    kernels_->backward(tree[k].shape(), panels_.data() + tree[k].panel, x.data() + kBlock * tree[k].first,
+                       below.data());
   }
 }
 

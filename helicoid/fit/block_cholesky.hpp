@@ -11,10 +11,10 @@ namespace helicoid {
 
 /// A symmetric matrix of 3 x 3 blocks, column-major each, over the edges of a graph. Nodes in elimination order.
 struct BlockMatrix {
-  std::vector<double> diagonal;       ///< nine doubles a node; both halves
-  std::vector<std::size_t> first;     ///< of each node's column, in `row`
-  std::vector<std::int32_t> row;      ///< node below the diagonal, ascending in each column
-  std::vector<double> below;          ///< nine doubles an entry of `row`
+  std::vector<double> diagonal;    ///< nine doubles a node; both halves
+  std::vector<std::size_t> first;  ///< of each node's column, in `row`
+  std::vector<std::int32_t> row;   ///< node below the diagonal, ascending in each column
+  std::vector<double> below;       ///< nine doubles an entry of `row`
 
   [[nodiscard]] std::int32_t nodes() const { return static_cast<std::int32_t>(diagonal.size() / 9); }
   void set_zero();
@@ -27,7 +27,7 @@ class BlockCholesky {
   /// The supernodes outlive the factor.
   explicit BlockCholesky(const Supernodes& supernodes, const FrontKernels& kernels = front_kernels());
 
-  /// Factorises H with its diagonal enlarged by this share; false if that is not positive definite.
+  /// Factorises H with its diagonal enlarged by this share (zeros on it too); false if that is not positive definite.
   bool factorise(const BlockMatrix& H, double damping = 0);
   /// H x = right, in place, in elimination order; three doubles a node.
   void solve(std::span<double> x) const;
@@ -47,9 +47,9 @@ class BlockCholesky {
   const FrontKernels* kernels_;
   std::vector<double> panels_;
   std::vector<double> workspace_;
-  std::vector<double> stacks_[2];         ///< updates of supernodes of even and of odd depth
-  std::vector<std::size_t> update_at_;    ///< where each supernode's update begins in its stack
-  std::vector<std::size_t> block_at_;     ///< where each entry of H goes in the panels
+  std::vector<double> stacks_[2];       ///< updates of supernodes of even and of odd depth
+  std::vector<std::size_t> update_at_;  ///< where each supernode's update begins in its stack
+  std::vector<std::size_t> block_at_;   ///< where each entry of H goes in the panels
 };
 
 }  // namespace helicoid

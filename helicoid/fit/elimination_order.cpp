@@ -17,7 +17,8 @@ constexpr std::int32_t kLargeGraph = 12000;
 
 std::vector<std::int32_t> order_by_minimum_degree(const Adjacency& graph) {
   std::vector<std::int32_t> order(static_cast<std::size_t>(graph.size()));
-  const int status = amd_order(graph.size(), graph.first.data(), graph.neighbours.data(), order.data(), nullptr, nullptr);
+  const int status =
+      amd_order(graph.size(), graph.first.data(), graph.neighbours.data(), order.data(), nullptr, nullptr);
   // Out of memory is the only failure of a graph that is in order: any order is right, if dear.
   if (status != AMD_OK && status != AMD_OK_BUT_JUMBLED) std::iota(order.begin(), order.end(), 0);
   return order;
@@ -40,8 +41,8 @@ std::vector<std::int32_t> order_by_dissection(Adjacency graph) {
   // METIS draws its random numbers from the C library's one sequence.
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
-  const int status = METIS_NodeND(&nodes, graph.first.data(), graph.neighbours.data(), nullptr, options, order.data(),
-                                  place.data());
+  const int status =
+      METIS_NodeND(&nodes, graph.first.data(), graph.neighbours.data(), nullptr, options, order.data(), place.data());
   return status == METIS_OK ? order : order_by_minimum_degree(graph);
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "helicoid/fit/cpu_clock.hpp"
-
 #include "helicoid/fit/initial_guess.hpp"
 #include "helicoid/fit/robust_fit.hpp"
 
@@ -42,9 +41,10 @@ StartedFit fit_once(const RelationGraph& graph, FitStart start, const FitOptions
   started.wrong_relations = robust.wrong.size();
   started.degrees_of_freedom = degrees_of_freedom(graph);
   const double chi2 = 2 * (started.result.final_cost - least_cost(graph));
-  started.is_plausible = started.result.status == FitStatus::converged &&
-                         (started.degrees_of_freedom > 0 ? chi2 <= chi_square_bound(started.degrees_of_freedom)
-                                                         : chi2 <= 1e-6 * std::max(1.0, 2 * started.result.initial_cost));
+  started.is_plausible =
+      started.result.status == FitStatus::converged &&
+      (started.degrees_of_freedom > 0 ? chi2 <= chi_square_bound(started.degrees_of_freedom)
+                                      : chi2 <= 1e-6 * std::max(1.0, 2 * started.result.initial_cost));
   return started;
 }
 
@@ -65,7 +65,8 @@ StartedFit fit_at(RelationGraph graph, FitStart start, const FitOptions& options
 std::int64_t degrees_of_freedom(const RelationGraph& graph) {
   std::int64_t degrees = 0;
   for (const GraphRelation& r : graph.relations) degrees += residuals_of(r.measurement);
-  for (std::size_t i = 0; i < graph.poses.size(); ++i) degrees -= !graph.is_landmark.empty() && graph.is_landmark[i] ? 2 : 3;
+  for (std::size_t i = 0; i < graph.poses.size(); ++i)
+    degrees -= !graph.is_landmark.empty() && graph.is_landmark[i] ? 2 : 3;
   return degrees + 3 * static_cast<std::int64_t>(default_gauge(graph).size());
 }
 

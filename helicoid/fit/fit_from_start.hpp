@@ -6,19 +6,19 @@
 namespace helicoid {
 
 enum class FitStart : std::uint8_t {
-  given,      ///< graph.poses
-  odometry,   ///< dead reckoning
+  given,     ///< graph.poses
+  odometry,  ///< dead reckoning
   chordal,
   automatic,  ///< as given; where that meets trouble or ends in an implausible optimum, chordal, and the better of both
 };
 
 struct StartedFit {
   FitResult result;
-  FitStart start = FitStart::given;  ///< the one that led there
+  FitStart start = FitStart::given;     ///< the one that led there
   std::int64_t degrees_of_freedom = 0;  ///< residuals less unknowns
   std::size_t wrong_relations = 0;      ///< that a truncated loss let go
-  /// Not a certificate of the global optimum, but what the data can say: chi^2 at the optimum is no larger than noise as
-  /// stated makes it in 99.9 % of cases. False: the optimum may be local, or relations contradict each other.
+  /// Not a certificate of the global optimum, but what the data can say: chi^2 at the optimum is no larger than noise
+  /// as stated makes it in 99.9 % of cases. False: the optimum may be local, or relations contradict each other.
   bool is_plausible = false;
 };
 

@@ -12,8 +12,8 @@ namespace helicoid {
 
 namespace {
 
-/// Long open chains have modes that are softer than the diagonal by nine orders of magnitude; damping that starts higher
-/// freezes them.
+/// Long open chains have modes that are softer than the diagonal by nine orders of magnitude; damping that starts
+/// higher freezes them.
 constexpr double kLeastDamping = 1e-9;
 constexpr double kMostDamping = 1e6;
 
@@ -86,7 +86,7 @@ class LevenbergMarquardt {
   void lower_damping(double gain_ratio) {
     growth_ = 10;
     if (gain_ratio > 0.5) damping_ *= gain_ratio > 0.9 ? 0.03 : 0.2;
-    if (damping_ < kLeastDamping) damping_ = 0;
+    if (damping_ < kLeastDamping) damping_ = is_singular_ ? kLeastDamping : 0;
   }
 
   /// Takes the step if it lowers the cost; otherwise leaves the system as it was linearised before.
@@ -101,22 +101,27 @@ class LevenbergMarquardt {
     return false;
   }
 
+  [[nodiscard]] FitStatus at_rest() const {
+    return is_singular_ ? FitStatus::not_positive_definite : FitStatus::converged;
+  }
+
   void iterate() {
     ++result_.iterations;
     if (!factorise()) {
+      is_singular_ = is_singular_ || damping_ == 0;
       raise_damping();
       if (damping_ > kMostDamping) result_.status = FitStatus::not_positive_definite;
       return;
     }
     std::vector<double> step = solve();
-    const bool small = damping_ == 0 && is_small(step);
+    const bool small = (damping_ == 0 || is_singular_) && is_small(step);
     const double expected = expected_gain(step);
     const double before = result_.final_cost;
     if (!try_step(step)) {
       raise_damping();
       // No step however short lowers the cost: rounding is all that is left.
       if (small || damping_ > kMostDamping) {
-        result_.status = FitStatus::converged;
+        result_.status = at_rest();
       } else if (options_.gives_up_early) {
         result_.status = FitStatus::cost_rose;
       }
@@ -124,7 +129,7 @@ class LevenbergMarquardt {
     }
     const bool undamped = damping_ == 0;
     lower_damping((before - result_.final_cost) / expected);
-    if (small) result_.status = FitStatus::converged;
+    if (small) result_.status = at_rest();
     if (small || !undamped) return;
     // The factor at hand is nearly right for the next step too: where that is the last one, it need not be made anew.
     step = solve();
@@ -139,6 +144,7 @@ class LevenbergMarquardt {
   FitResult& result_;
   double damping_ = 0;
   double growth_ = 10;
+  bool is_singular_ = false;  ///< some direction is open: damping alone holds it
 };
 
 }  // namespace

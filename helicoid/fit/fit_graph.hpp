@@ -11,6 +11,7 @@
 
 namespace helicoid {
 
+/// Not positive definite: at rest, but the relations leave some direction open.
 enum class FitStatus : std::uint8_t { converged, iteration_limit, not_positive_definite, nothing_to_fit, cost_rose };
 enum class FitMethod : std::uint8_t { levenberg_marquardt, fletcher_reeves, gradient_descent };
 

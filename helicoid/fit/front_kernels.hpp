@@ -9,7 +9,9 @@ namespace helicoid {
 
 /// Rows are padded to whole strips, so that no kernel needs a remainder. Pads hold zeros.
 inline constexpr int kStrip = 8;
-[[nodiscard]] constexpr int padded(int rows) { return (rows + kStrip - 1) / kStrip * kStrip; }
+[[nodiscard]] constexpr int padded(int rows) {
+  return (rows + kStrip - 1) / kStrip * kStrip;
+}
 
 /// The shape of a front: its first `pivots` unknowns are eliminated, the `below` others are passed on. Scalars.
 /// The panel is column-major, `leading` x pivots: rows [0, pivots) are the triangle, rows [first_below, first_below +

@@ -6,7 +6,9 @@
 namespace helicoid {
 
 extern const FrontKernels& avx2_front_kernels();
-const FrontKernels& avx2_front_kernels() { return kKernels; }
+const FrontKernels& avx2_front_kernels() {
+  return kKernels;
+}
 
 }  // namespace helicoid
 #endif

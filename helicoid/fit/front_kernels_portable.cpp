@@ -3,6 +3,8 @@
 
 namespace helicoid {
 
-const FrontKernels& portable_front_kernels() { return kKernels; }
+const FrontKernels& portable_front_kernels() {
+  return kKernels;
+}
 
 }  // namespace helicoid

@@ -170,8 +170,9 @@ bool fit_headings(RelationGraph& graph, LinearSystem& system) {
   for (const GraphRelation& r : graph.relations) {
     const HeadingTie tie = heading_tie(r.measurement);
     if (tie.weight <= 0 || r.a == kWorld) continue;
-    add_heading(H, right, static_cast<std::size_t>(supernodes.place[r.a]), static_cast<std::size_t>(supernodes.place[r.b]),
-                !system.is_fixed(r.a), !system.is_fixed(r.b), tie, graph.poses[r.a], graph.poses[r.b]);
+    add_heading(H, right, static_cast<std::size_t>(supernodes.place[r.a]),
+                static_cast<std::size_t>(supernodes.place[r.b]), !system.is_fixed(r.a), !system.is_fixed(r.b), tie,
+                graph.poses[r.a], graph.poses[r.b]);
   }
   for (std::uint32_t i = 0; i < graph.poses.size(); ++i) {
     double* block = H.diagonal.data() + 3 * system.offset(i);

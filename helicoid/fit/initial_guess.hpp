@@ -8,8 +8,8 @@
 namespace helicoid {
 
 /// Poses by dead reckoning: along the chain of relations from each node to the next while there are such, then along
-/// a spanning tree, breadth first. Nodes that `is_placed` says are known keep their pose; empty: none is. The first pose
-/// of each component that has none placed stands at the origin. Landmarks start where a point relation sees them.
+/// a spanning tree, breadth first. Nodes that `is_placed` says are known keep their pose; empty: none is. The first
+/// pose of each component that has none placed stands at the origin. Landmarks start where a point relation sees them.
 [[nodiscard]] std::vector<Pose2> odometry_start(const RelationGraph& graph, const std::vector<bool>& is_placed = {});
 
 /// Chordal initialisation (Martinec and Pajdla 2007; Carlone et al. 2015): headings from one linear problem over

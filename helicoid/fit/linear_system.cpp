@@ -46,9 +46,12 @@ void soften(const GraphRelation& r, const RobustLoss& loss, PairExpansion& pair)
 }  // namespace
 
 LinearSystem::LinearSystem(const RelationGraph& graph, std::span<const std::uint32_t> fixed, Ordering ordering)
-    : graph_(&graph), adjacency_(adjacency_of(graph)),
+    : graph_(&graph),
+      adjacency_(adjacency_of(graph)),
       supernodes_(find_supernodes(adjacency_, find_elimination_order(adjacency_, ordering))),
-      H_(make_block_matrix(adjacency_, supernodes_)), gradient_(kBlock * graph.poses.size()), cholesky_(supernodes_) {
+      H_(make_block_matrix(adjacency_, supernodes_)),
+      gradient_(kBlock * graph.poses.size()),
+      cholesky_(supernodes_) {
   if (!graph.is_landmark.empty()) {
     for (const std::int32_t node : supernodes_.order) has_no_heading_.push_back(graph.is_landmark[node]);
   }

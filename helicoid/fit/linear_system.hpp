@@ -16,7 +16,8 @@ namespace helicoid {
 class LinearSystem {
  public:
   /// `fixed` nodes are held. The graph outlives the system; what a relation measured may change, who it ties may not.
-  LinearSystem(const RelationGraph& graph, std::span<const std::uint32_t> fixed, Ordering ordering = Ordering::automatic);
+  LinearSystem(const RelationGraph& graph, std::span<const std::uint32_t> fixed,
+               Ordering ordering = Ordering::automatic);
   LinearSystem(const LinearSystem&) = delete;
   LinearSystem& operator=(const LinearSystem&) = delete;
 
@@ -38,18 +39,23 @@ class LinearSystem {
   [[nodiscard]] const Supernodes& supernodes() const { return supernodes_; }
   [[nodiscard]] std::size_t factor_size() const { return cholesky_.size(); }
   /// Where a node's three numbers begin in steps and gradients.
-  [[nodiscard]] std::size_t offset(std::uint32_t node) const { return kBlock * static_cast<std::size_t>(supernodes_.place[node]); }
-  [[nodiscard]] bool is_fixed(std::uint32_t node) const { return is_fixed_[static_cast<std::size_t>(supernodes_.place[node])]; }
+  [[nodiscard]] std::size_t offset(std::uint32_t node) const {
+    return kBlock * static_cast<std::size_t>(supernodes_.place[node]);
+  }
+  [[nodiscard]] bool is_fixed(std::uint32_t node) const {
+    return is_fixed_[static_cast<std::size_t>(supernodes_.place[node])];
+  }
   /// theta exp(scale * xi) for all nodes.
-  [[nodiscard]] std::vector<Pose2> moved(std::span<const Pose2> poses, std::span<const double> step, double scale = 1) const;
+  [[nodiscard]] std::vector<Pose2> moved(std::span<const Pose2> poses, std::span<const double> step,
+                                         double scale = 1) const;
 
  private:
   /// A relation as linearising needs it; sorted by where it writes.
   struct Tie {
-    std::int32_t a;       ///< places; -1 is the world
+    std::int32_t a;  ///< places; -1 is the world
     std::int32_t b;
     std::uint32_t relation;
-    std::size_t block;    ///< of H.below
+    std::size_t block;  ///< of H.below
   };
   struct Frame {
     double x, y, yaw, cosine, sine;
@@ -65,7 +71,7 @@ class LinearSystem {
   Supernodes supernodes_;
   BlockMatrix H_;
   std::vector<Tie> ties_;
-  std::vector<bool> is_fixed_;       ///< by place
+  std::vector<bool> is_fixed_;        ///< by place
   std::vector<bool> has_no_heading_;  ///< by place; empty if all have one
   std::vector<double> gradient_;
   BlockCholesky cholesky_;

@@ -89,6 +89,8 @@ PairExpansion expand(const Measurement& measurement, const RelativePose& T_a_b) 
   return std::visit(Expand{T_a_b}, measurement);
 }
 
-double cost(const Measurement& measurement, const RelativePose& T_a_b) { return expand(measurement, T_a_b).cost; }
+double cost(const Measurement& measurement, const RelativePose& T_a_b) {
+  return expand(measurement, T_a_b).cost;
+}
 
 }  // namespace helicoid

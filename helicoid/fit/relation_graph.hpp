@@ -21,7 +21,7 @@ struct GraphRelation {
 
 /// Nodes are poses, or landmarks: places without a heading, whose yaw is held at 0.
 struct RelationGraph {
-  std::vector<Pose2> poses;  ///< T_plane_node, the start of the fit
+  std::vector<Pose2> poses;       ///< T_plane_node, the start of the fit
   std::vector<bool> is_landmark;  ///< empty: none is
   std::vector<GraphRelation> relations;
 };

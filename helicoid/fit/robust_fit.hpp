@@ -1,5 +1,5 @@
-// A fit that lets wrong relations go: graduated non-convexity with truncated least squares (Yang, Antonante, Tzoumas and
-// Carlone 2020, algorithm 1). Softened first until it is convex, the loss is hardened step by step.
+// A fit that lets wrong relations go: graduated non-convexity with truncated least squares (Yang, Antonante, Tzoumas
+// and Carlone 2020, algorithm 1). Softened first until it is convex, the loss is hardened step by step.
 #pragma once
 
 #include "helicoid/fit/fit_graph.hpp"

@@ -1,5 +1,5 @@
-// The inverse's diagonal blocks, from the roots down: a front's rows below are rows of its parent's front, whose part of
-// the inverse is known by then.
+// The inverse's diagonal blocks, from the roots down: a front's rows below are rows of its parent's front, whose part
+// of the inverse is known by then.
 #include "helicoid/fit/block_cholesky.hpp"
 
 namespace helicoid {
@@ -12,8 +12,8 @@ std::size_t front_size(const Supernode& s) {
 }
 
 /// Copies what the child's rows below are in the parent's inverse to the child's lower right corner.
-void take_corner(std::span<const FrontRun> runs, const Supernode& child, double* inverse,
-                 const Supernode& parent, const double* parent_inverse) {
+void take_corner(std::span<const FrontRun> runs, const Supernode& child, double* inverse, const Supernode& parent,
+                 const double* parent_inverse) {
   const std::ptrdiff_t leading = child.shape().leading();
   const std::ptrdiff_t parent_leading = parent.shape().leading();
   const std::ptrdiff_t corner = child.shape().first_below() * (leading + 1);

@@ -25,15 +25,15 @@ struct FrontRun {
 /// Columns that have the same rows beneath them and are eliminated in one front (Liu, Ng and Peyton 1993). Nodes are
 /// counted in elimination order.
 struct Supernode {
-  std::int32_t first = 0;   ///< its first node
-  std::int32_t count = 0;   ///< its nodes are [first, first + count)
+  std::int32_t first = 0;    ///< its first node
+  std::int32_t count = 0;    ///< its nodes are [first, first + count)
   std::int32_t parent = -1;  ///< the supernode that its update is added to; -1 for a root
-  std::int32_t depth = 0;   ///< below its root
-  std::size_t rows = 0;     ///< where its rows below begin, in Supernodes::rows
-  std::int32_t below = 0;   ///< how many nodes
-  std::size_t runs = 0;     ///< where its runs begin, in Supernodes::runs
+  std::int32_t depth = 0;    ///< below its root
+  std::size_t rows = 0;      ///< where its rows below begin, in Supernodes::rows
+  std::int32_t below = 0;    ///< how many nodes
+  std::size_t runs = 0;      ///< where its runs begin, in Supernodes::runs
   std::int32_t run_count = 0;
-  std::size_t panel = 0;    ///< where its panel begins, in doubles
+  std::size_t panel = 0;  ///< where its panel begins, in doubles
 
   [[nodiscard]] FrontShape shape() const { return {kBlock * count, kBlock * below}; }
 };
@@ -43,8 +43,8 @@ struct Supernodes {
   std::vector<std::int32_t> order;  ///< order[k] is the node of the graph that is the k-th in elimination order
   std::vector<std::int32_t> place;  ///< its inverse
   std::vector<Supernode> tree;
-  std::vector<std::int32_t> of;     ///< the supernode of the k-th node
-  std::vector<std::int32_t> rows;   ///< ascending, of each supernode
+  std::vector<std::int32_t> of;    ///< the supernode of the k-th node
+  std::vector<std::int32_t> rows;  ///< ascending, of each supernode
   std::vector<FrontRun> runs;
   std::size_t panels = 0;  ///< all panels together, in doubles
 

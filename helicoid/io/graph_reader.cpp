@@ -147,8 +147,8 @@ class GraphParser {
     if (!id || !v) return false;
     is_toro_ = is_toro_ || toro;
     const auto& n = *v;
-    const Matrix3d information = toro ? symmetric(n[3], n[4], n[7], n[5], n[8], n[6])
-                                      : symmetric(n[3], n[4], n[5], n[6], n[7], n[8]);
+    const Matrix3d information =
+        toro ? symmetric(n[3], n[4], n[7], n[5], n[8], n[6]) : symmetric(n[3], n[4], n[5], n[6], n[7], n[8]);
     add((*id)[0], (*id)[1], PosePose{{n[0], n[1], wrap_angle(n[2])}, information}, information, false);
     return true;
   }
@@ -225,7 +225,8 @@ class GraphParser {
       file.graph.poses[at] = v.pose;
       is_landmark[at] = v.is_landmark;
     }
-    if (std::find(is_landmark.begin(), is_landmark.end(), true) != is_landmark.end()) file.graph.is_landmark = is_landmark;
+    if (std::find(is_landmark.begin(), is_landmark.end(), true) != is_landmark.end())
+      file.graph.is_landmark = is_landmark;
   }
 
   void take_relations(GraphFile& file) {
@@ -260,7 +261,9 @@ class GraphParser {
 
 }  // namespace
 
-GraphFile parse_graph(const std::string& text, const std::string& name) { return GraphParser(text, name).parse(); }
+GraphFile parse_graph(const std::string& text, const std::string& name) {
+  return GraphParser(text, name).parse();
+}
 
 Result<GraphFile> read_graph(const std::string& path) {
   const Result<TextFile> text = read_text_file(path);
@@ -271,8 +274,10 @@ Result<GraphFile> read_graph(const std::string& path) {
   if (file.graph.relations.empty()) {
     std::string why;
     for (const Skipped& s : file.skipped) why += fmt::format("; {} x {}, first at {}", s.count, s.reason, s.first);
-    return fail("{}: holds no relation; a g2o graph has lines `EDGE_SE2 a b x y yaw` and the upper half of the "
-                "information{}", path, why);
+    return fail(
+        "{}: holds no relation; a g2o graph has lines `EDGE_SE2 a b x y yaw` and the upper half of the "
+        "information{}",
+        path, why);
   }
   return file;
 }

@@ -13,13 +13,13 @@
 namespace helicoid {
 
 struct GraphFile {
-  std::vector<std::int64_t> ids;  ///< of the graph's nodes, ascending
-  RelationGraph graph;            ///< nodes without a VERTEX line stand at the origin
-  std::vector<bool> is_placed;    ///< had a VERTEX line
+  std::vector<std::int64_t> ids;     ///< of the graph's nodes, ascending
+  RelationGraph graph;               ///< nodes without a VERTEX line stand at the origin
+  std::vector<bool> is_placed;       ///< had a VERTEX line
   std::vector<std::uint32_t> fixed;  ///< nodes of FIX lines
-  bool is_toro = false;           ///< relations came as EDGE2
+  bool is_toro = false;              ///< relations came as EDGE2
   std::vector<Skipped> skipped;
-  std::string warning;            ///< of a damaged archive; empty if all is well
+  std::string warning;  ///< of a damaged archive; empty if all is well
 };
 
 /// Lines that tell nothing usable are left out and counted: unknown kinds, numbers that are missing or not finite, a

@@ -24,11 +24,12 @@ struct WriteMeasurement {
       fmt::format_to(out, "EDGE_PRIOR_SE2 {} {:.9g} {:.9g} {:.12g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", b, T.x,
                      T.y, T.yaw, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2));
     } else if (toro) {
-      fmt::format_to(out, "EDGE2 {} {} {:.9g} {:.9g} {:.12g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", a, b, T.x, T.y,
-                     T.yaw, I(0, 0), I(0, 1), I(1, 1), I(2, 2), I(0, 2), I(1, 2));
+      fmt::format_to(out, "EDGE2 {} {} {:.9g} {:.9g} {:.12g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", a, b, T.x,
+                     T.y, T.yaw, I(0, 0), I(0, 1), I(1, 1), I(2, 2), I(0, 2), I(1, 2));
     } else {
-      fmt::format_to(out, FMT_COMPILE("EDGE_SE2 {} {} {:.9g} {:.9g} {:.12g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n"),
-                     a, b, T.x, T.y, T.yaw, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2));
+      fmt::format_to(out,
+                     FMT_COMPILE("EDGE_SE2 {} {} {:.9g} {:.9g} {:.12g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n"), a,
+                     b, T.x, T.y, T.yaw, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2));
     }
   }
   void operator()(const PointPosition& m) const {
