@@ -8,13 +8,13 @@ namespace helicoid {
 namespace {
 
 // Where to begin before a robot's own innovations are known.
-constexpr double kPositionNoise = 0.01;        // metres, standing
+constexpr double kPositionNoise = 0.01;  // metres, standing
 constexpr double kPositionPerMetre = 0.10;
-constexpr double kPositionPerRadian = 0.02;    // metres per radian
-constexpr double kHeadingNoise = 0.01;         // radians, standing
+constexpr double kPositionPerRadian = 0.02;  // metres per radian
+constexpr double kHeadingNoise = 0.01;       // radians, standing
 constexpr double kHeadingPerRadian = 0.15;
-constexpr double kHeadingPerMetre = 0.06;      // radians per metre
-constexpr double kUnmeasuredFactor = 5;        // constant velocity is worth this much less
+constexpr double kHeadingPerMetre = 0.06;  // radians per metre
+constexpr double kUnmeasuredFactor = 5;    // constant velocity is worth this much less
 
 }  // namespace
 
@@ -43,8 +43,8 @@ Vector3d MotionPrior::sigma(double path, double turn) const {
 }
 
 Matrix3d MotionPrior::information(const Motion& motion) const {
-  const Vector3d s = sigma(motion.T_last_now.distance(), std::abs(motion.T_last_now.yaw)) *
-                     (motion.measured ? 1 : kUnmeasuredFactor);
+  const Vector3d s =
+      sigma(motion.T_last_now.distance(), std::abs(motion.T_last_now.yaw)) * (motion.measured ? 1 : kUnmeasuredFactor);
   return s.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 

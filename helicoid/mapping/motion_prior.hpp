@@ -8,15 +8,15 @@
 namespace helicoid {
 
 struct MotionLimits {
-  double speed = 4;       ///< no robot is faster, metres / second
-  double turn_rate = 5;   ///< radians / second
-  double slack = 0.3;     ///< added to the time between scans: stamps are jittery, seconds
+  double speed = 4;      ///< no robot is faster, metres / second
+  double turn_rate = 5;  ///< radians / second
+  double slack = 0.3;    ///< added to the time between scans: stamps are jittery, seconds
 };
 
 /// The increment between two scans of one robot.
 struct Motion {
   Pose2 T_last_now;
-  bool measured = true;    ///< false: no odometry, or an impossible step; constant velocity instead
+  bool measured = true;  ///< false: no odometry, or an impossible step; constant velocity instead
   bool impossible = false;
 };
 
@@ -44,9 +44,9 @@ class MotionPrior {
   bool has_last_ = false;
   Pose2 T_odom_last_;
   double last_stamp_ = 0;
-  Pose2 velocity_;       ///< the last matched motion
+  Pose2 velocity_;  ///< the last matched motion
   bool in_doubt_ = false;
-  double scale_ = 1;     ///< squared: innovations over what sigma() says
+  double scale_ = 1;  ///< squared: innovations over what sigma() says
 };
 
 }  // namespace helicoid

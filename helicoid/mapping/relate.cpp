@@ -32,16 +32,16 @@ Pose2 fit_alone(std::span<const LocalPatch> views, std::span<const PairMatch> ma
 
 }  // namespace
 
-RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
-                    const PosePrior& prior, const RelateOptions& options) {
+RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points, const PosePrior& prior,
+                    const RelateOptions& options) {
   RelatedPatch result{prior.T_reference_scan, {}};
   std::vector<PairMatch> matches(views.size());
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t i = 0; i < views.size(); ++i) {
       const Patch& patch = map.patch(views[i].patch);
       const PairReference reference{&patch.points, &patch.laser, patch.scan.T_robot_laser};
-      matches[i] = match_pair(reference, points, views[i].T_anchor_patch.inverse() * result.T_anchor_patch,
-                              options.match);
+      matches[i] =
+          match_pair(reference, points, views[i].T_anchor_patch.inverse() * result.T_anchor_patch, options.match);
       if (matches[i].correspondences < options.min_correspondences) matches[i] = {};
     }
     const Pose2 matched_at = result.T_anchor_patch;
@@ -53,8 +53,8 @@ RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Sca
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (matches[i].correspondences == 0) continue;
     const Pose2 T_a_b = views[i].T_anchor_patch.inverse() * result.T_anchor_patch;
-    result.relations.push_back({views[i].patch, matches[i].form, T_a_b,
-                                2 * minimise(matches[i].form, T_a_b).cost, matches[i].correspondences});
+    result.relations.push_back({views[i].patch, matches[i].form, T_a_b, 2 * minimise(matches[i].form, T_a_b).cost,
+                                matches[i].correspondences});
   }
   return result;
 }

@@ -13,7 +13,7 @@ namespace helicoid {
 struct RelateOptions {
   MatchPairOptions match;
   double kappa = 8;
-  int rounds = 3;                ///< of matching and fitting at most, EM-style
+  int rounds = 3;                   ///< of matching and fitting at most, EM-style
   double settled_position = 0.004;  ///< a fit that moves less ends the rounds, metres
   double settled_heading = 0.002;   ///< radians
   int min_correspondences = 20;
