@@ -1,7 +1,6 @@
 #include "helicoid/fit/local_bound.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <queue>
 
@@ -11,8 +10,8 @@ namespace {
 
 /// One radian of heading counts as much as this many metres when paths are compared: about a patch's reach.
 constexpr double kLever = 3;
-/// Keeps the inverse of a pair's information finite where the pair leaves a direction open: 30 m, 30 rad.
-constexpr double kLeastInformation = 1e-3;
+/// A pair whose information is weaker than this share of its strongest in some direction leaves it open.
+constexpr double kOpen = 1e-12;
 
 struct Visit {
   double length;
@@ -23,6 +22,16 @@ struct Visit {
     return length != other.length ? length > other.length : pose > other.pose;
   }
 };
+
+/// The inverse of a pair's information, exact: adding to the information, however little, would make a bound of it
+/// that does not hold. An open direction makes all of it unbounded: no limit admits it.
+Matrix3d pair_covariance(const Matrix3d& information) {
+  const Eigen::LDLT<Matrix3d> factor(information);
+  const Vector3d pivots = factor.vectorD();
+  if (!(pivots.minCoeff() > kOpen * pivots.maxCoeff())) return 1e12 * Matrix3d::Identity();
+  const Matrix3d covariance = factor.solve(Matrix3d::Identity());
+  return 0.5 * (covariance + covariance.transpose());
+}
 
 }  // namespace
 
@@ -55,7 +64,7 @@ void InformationGraph::accumulate(std::uint32_t from, std::uint32_t to, const Ma
   auto at = std::find_if(edges.begin(), edges.end(), [to](const Edge& e) { return e.to == to; });
   if (at == edges.end()) at = edges.insert(edges.end(), Edge{to, Matrix3d::Zero(), 0, Matrix3d::Zero()});
   at->information += information;
-  at->covariance = (at->information + kLeastInformation * Matrix3d::Identity()).inverse();
+  at->covariance = pair_covariance(at->information);
   at->spread = at->covariance(0, 0) + at->covariance(1, 1) + kLever * kLever * at->covariance(2, 2);
 }
 
