@@ -77,6 +77,7 @@ Result<void> add_robots(const MapJob& job, MergedLogs& logs, MapRun& run) {
       }
       run.lasers.push_back(fmt::format("{}: {}", robot.logs.name, describe(laser)));
     }
+    robot.reader->set_lasers(lasers);
     run.mapper.add_robot(robot.logs.name, lasers);
     run.logs.push_back(fmt::format("{}", fmt::join(robot.logs.paths, ",")));
   }

@@ -45,6 +45,13 @@ Pose2 exponential(const Vector3d& twist) {
   return {a * twist[0] - b * twist[1], b * twist[0] + a * twist[1], wrap_angle(omega)};
 }
 
+Vector3d logarithm(const Pose2& pose) {
+  const double half = 0.5 * wrap_angle(pose.yaw);
+  // w/2 cot(w/2); the series where the quotient loses its digits.
+  const double a = half * half < 1e-8 ? 1 - half * half / 3 : half / std::tan(half);
+  return {a * pose.x + half * pose.y, a * pose.y - half * pose.x, 2 * half};
+}
+
 Composition compose_with_jacobians(const Pose2& T_a_b, const Pose2& T_b_c) {
   const double c = std::cos(T_a_b.yaw);
   const double s = std::sin(T_a_b.yaw);

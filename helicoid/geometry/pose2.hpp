@@ -55,6 +55,8 @@ struct Pose2 {
 /// The exponential of SE(2): where a body with the constant twist (v_x, v_y, omega), in its own frame, is after one
 /// unit of time.
 [[nodiscard]] Pose2 exponential(const Vector3d& twist);
+/// Its inverse: the constant twist that leads to this pose in one unit of time, by the shorter turn.
+[[nodiscard]] Vector3d logarithm(const Pose2& pose);
 
 /// T_a_c = T_a_b * T_b_c with its derivatives by the parameters (x, y, yaw) of either factor; 3 x 3 each.
 struct Composition {

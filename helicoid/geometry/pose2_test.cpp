@@ -156,6 +156,14 @@ TEST(Exponential, AddsUpAlongOneTwist) {
   expect_equal(exponential(Vector3d::Zero()), {});
 }
 
+TEST(Exponential, IsUndoneByTheLogarithm) {
+  for (const Pose2& a : poses(10, 200)) {
+    expect_equal(exponential(logarithm(a)), a, 1e-9);
+    EXPECT_LE(std::abs(logarithm(a)[2]), kPi);
+  }
+  EXPECT_EQ(logarithm({}), Vector3d::Zero());
+}
+
 TEST(Exponential, HasNoStepWhereTheSeriesTakesOver) {
   const Vector3d below(1, -2, std::sqrt(1e-8) * (1 - 1e-9));
   const Vector3d above(1, -2, std::sqrt(1e-8) * (1 + 1e-9));

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <optional>
 
+#include "helicoid/sensor/deskew.hpp"
+
 namespace helicoid {
 
 namespace {
@@ -155,7 +157,25 @@ const Event* CarmenReader::finish_scan(const BeamLayout& layout, double stamp) {
   const bool odd = std::any_of(scan.ranges.begin(), scan.ranges.end(), [](float r) { return !(r >= 0) || r > 1e6F; });
   // The scan stays: such beams are no returns.
   if (odd) skip("scan with ranges that are NaN, infinite or negative; those beams are ignored", "laser message");
+  if (lasers_[static_cast<std::size_t>(scan.laser)].scan_duration > 0) remove_motion(scan, stamp);
   return &scan_event_;
+}
+
+void CarmenReader::remove_motion(Scan& scan, double stamp) {
+  // Stamps jitter and step back, odometry jumps: what no robot does gives no speed.
+  constexpr double kLongest = 1;   // seconds between scans
+  constexpr double kFastest = 4;   // metres / second
+  constexpr double kQuickest = 5;  // radians / second
+  const double elapsed = stamp - scan_stamp_;
+  const Vector3d twist = logarithm(T_odom_scan_.inverse() * scan.T_odom_robot) / elapsed;
+  if (scan.has_odometry && elapsed > 0 && elapsed <= kLongest && twist.head<2>().norm() <= kFastest &&
+      std::abs(twist[2]) <= kQuickest) {
+    scan = deskew(scan, lasers_[static_cast<std::size_t>(scan.laser)], twist);
+  } else {
+    skip("scan without a believable speed; the motion within it is left in", "laser message");
+  }
+  T_odom_scan_ = scan.T_odom_robot;
+  scan_stamp_ = stamp;
 }
 
 const Event* CarmenReader::parse_front_laser(TextCursor cursor) {

@@ -26,6 +26,7 @@ class CarmenReader {
 
   /// The lasers that took the log's scans; a Scan's `laser` is a place in this list. Empty if there is no scan.
   [[nodiscard]] const std::vector<LaserModel>& lasers() const { return lasers_; }
+  /// Other models for the lasers. One with a scan_duration has the motion within its scans taken out (see deskew.hpp).
   void set_lasers(std::vector<LaserModel> lasers) { lasers_ = std::move(lasers); }
   [[nodiscard]] const std::vector<Skipped>& skipped() const { return skipped_.all(); }
   /// How much text there is, and how much of it was read so far.
@@ -44,6 +45,7 @@ class CarmenReader {
   const Event* parse_sighting(TextCursor cursor);
   bool read_ranges(TextCursor& cursor, std::size_t count);
   const Event* finish_scan(const BeamLayout& layout, double stamp);
+  void remove_motion(Scan& scan, double stamp);
   const Event* skip(const char* reason, std::string_view what);
   std::string place() const;
 
@@ -59,6 +61,8 @@ class CarmenReader {
   Event other_event_;
   Pose2 T_odom_robot_;  ///< of the last ODOM
   bool has_odometry_ = false;
+  Pose2 T_odom_scan_;  ///< the robot at the last scan, for the motion within a sweep
+  double scan_stamp_ = 0;
 };
 
 /// The layout that a laser message states, without reading its ranges; beams = 0 if it states none.
