@@ -43,8 +43,8 @@ BlockCholesky::BlockCholesky(const Supernodes& supernodes, const FrontKernels& k
     if (released[k] != SIZE_MAX) top[1 - parity] = released[k];
     if (s.parent >= 0) released[s.parent] = std::min(released[s.parent], update_at_[k]);
   }
-  workspace_.resize(work);
-  for (int parity = 0; parity < 2; ++parity) stacks_[parity].resize(most[parity] + kStrip);
+  workspace_ = WorkMemory(work);
+  for (int parity = 0; parity < 2; ++parity) stacks_[parity] = WorkMemory(most[parity] + kStrip);
 }
 
 void BlockCholesky::prepare(const BlockMatrix& H) {
@@ -62,7 +62,7 @@ void BlockCholesky::prepare(const BlockMatrix& H) {
 
 void BlockCholesky::assemble(const BlockMatrix& H, const Supernode& s, double damping) {
   const auto leading = static_cast<std::size_t>(s.shape().leading());
-  std::fill_n(panels_.begin() + static_cast<std::ptrdiff_t>(s.panel), s.shape().panel_size(), 0.0);
+  std::fill_n(panels_.data() + s.panel, s.shape().panel_size(), 0.0);
   for (std::int32_t node = s.first; node < s.first + s.count; ++node) {
     const auto local = kBlock * static_cast<std::size_t>(node - s.first);
     double* block = panels_.data() + s.panel + local * (leading + 1);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "helicoid/fit/supernodes.hpp"
+#include "helicoid/fit/work_memory.hpp"
 
 namespace helicoid {
 
@@ -45,9 +46,9 @@ class BlockCholesky {
 
   const Supernodes* supernodes_;
   const FrontKernels* kernels_;
-  std::vector<double> panels_;
-  std::vector<double> workspace_;
-  std::vector<double> stacks_[2];       ///< updates of supernodes of even and of odd depth
+  WorkMemory panels_;
+  WorkMemory workspace_;
+  WorkMemory stacks_[2];                ///< updates of supernodes of even and of odd depth
   std::vector<std::size_t> update_at_;  ///< where each supernode's update begins in its stack
   std::vector<std::size_t> block_at_;   ///< where each entry of H goes in the panels
 };

@@ -122,7 +122,7 @@ class LevenbergMarquardt {
       // No step however short lowers the cost: rounding is all that is left.
       if (small || damping_ > kMostDamping) {
         result_.status = at_rest();
-      } else if (options_.gives_up_early) {
+      } else if (options_.gives_up_early && ++rises_ == 3) {
         result_.status = FitStatus::cost_rose;
       }
       return;
@@ -144,6 +144,7 @@ class LevenbergMarquardt {
   FitResult& result_;
   double damping_ = 0;
   double growth_ = 10;
+  int rises_ = 0;
   bool is_singular_ = false;  ///< some direction is open: damping alone holds it
 };
 

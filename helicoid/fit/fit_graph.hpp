@@ -20,8 +20,9 @@ struct FitOptions {
   int max_iterations = 100;          ///< the first-order methods take a thousand times as many
   double relative_tolerance = 1e-7;  ///< of the cost: ends when a step is expected to gain less
   double step_tolerance = 1e-6;      ///< or to move every pose by less, metres or radians
-  bool gives_up_early = false;       ///< ends with `cost_rose` where damping would begin: another start may be better
-  RobustLoss loss;                   ///< acts on relations that may be wrong
+  bool gives_up_early =
+      false;        ///< ends with `cost_rose` at the third step that does not lower it: another start may be better
+  RobustLoss loss;  ///< acts on relations that may be wrong
   Ordering ordering = Ordering::automatic;
 };
 

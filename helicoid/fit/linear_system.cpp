@@ -15,21 +15,32 @@ Adjacency adjacency_of(const RelationGraph& graph) {
   return find_adjacency(static_cast<std::int32_t>(graph.poses.size()), pairs);
 }
 
-/// d(t_x, t_y, phi) of T_a_b by the twist of a.
-Matrix3d by_first(const RelativePose& T) {
-  Matrix3d J = -Matrix3d::Identity();
-  J(0, 2) = T.y;
-  J(1, 2) = -T.x;
-  return J;
+/// M J for the derivative J = [-1 0 y; 0 -1 -x; 0 0 -1] of (t_x, t_y, phi) by the twist of a.
+Matrix3d times_by_first(const Matrix3d& M, const RelativePose& T) {
+  Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    result(i, 0) = -M(i, 0);
+    result(i, 1) = -M(i, 1);
+    result(i, 2) = T.y * M(i, 0) - T.x * M(i, 1) - M(i, 2);
+  }
+  return result;
 }
 
-/// And by the twist of b.
-Matrix3d by_second(const RelativePose& T) {
-  Matrix3d J = Matrix3d::Identity();
-  J(0, 0) = J(1, 1) = T.cosine;
-  J(0, 1) = -T.sine;
-  J(1, 0) = T.sine;
-  return J;
+/// And for that by the twist of b, [c -s 0; s c 0; 0 0 1].
+Matrix3d times_by_second(const Matrix3d& M, const RelativePose& T) {
+  Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    result(i, 0) = T.cosine * M(i, 0) + T.sine * M(i, 1);
+    result(i, 1) = T.cosine * M(i, 1) - T.sine * M(i, 0);
+    result(i, 2) = M(i, 2);
+  }
+  return result;
+}
+
+void drop_heading(Matrix3d& H, Vector3d& g) {
+  H.row(2).setZero();
+  H.col(2).setZero();
+  g[2] = 0;
 }
 
 /// The loss on the excess over what the relation costs at its best.
@@ -78,6 +89,24 @@ void LinearSystem::tie_up() {
     ties_.push_back(tie);
   }
   std::stable_sort(ties_.begin(), ties_.end(), [](const Tie& l, const Tie& r) { return l.block < r.block; });
+  for (const Tie& tie : ties_) {
+    TurnedPosePose turned{0, 0, 0, Matrix3d::Zero()};
+    if (const auto* m = std::get_if<PosePose>(&graph_->relations[tie.relation].measurement)) {
+      Matrix3d turn = Matrix3d::Identity();
+      turn.topLeftCorner<2, 2>() = m->T_a_b.rotation();
+      turned = {m->T_a_b.x, m->T_a_b.y, m->T_a_b.yaw, turn * m->information * turn.transpose()};
+    }
+    turned_.push_back(turned);
+  }
+}
+
+PairExpansion LinearSystem::expand_tie(std::size_t tie, const RelativePose& T_a_b) const {
+  const Measurement& measurement = graph_->relations[ties_[tie].relation].measurement;
+  if (!std::holds_alternative<PosePose>(measurement)) return expand(measurement, T_a_b);
+  const TurnedPosePose& m = turned_[tie];
+  const Vector3d e(T_a_b.x - m.x, T_a_b.y - m.y, wrap_small(T_a_b.yaw - m.yaw));
+  const Vector3d gradient = m.information * e;
+  return {0.5 * e.dot(gradient), gradient, m.information};
 }
 
 std::vector<LinearSystem::Frame> LinearSystem::frames(std::span<const Pose2> poses) const {
@@ -100,10 +129,10 @@ double LinearSystem::cost(std::span<const Pose2> poses, const RobustLoss& loss) 
   const std::vector<Frame> nodes = frames(poses);
   const Frame world{0, 0, 0, 1, 0};
   double sum = 0;
-  for (const Tie& tie : ties_) {
-    const GraphRelation& r = graph_->relations[tie.relation];
-    PairExpansion pair = expand(r.measurement, relative(tie.a < 0 ? world : nodes[tie.a], nodes[tie.b]));
-    soften(r, loss, pair);
+  for (std::size_t i = 0; i < ties_.size(); ++i) {
+    const Tie& tie = ties_[i];
+    PairExpansion pair = expand_tie(i, relative(tie.a < 0 ? world : nodes[tie.a], nodes[tie.b]));
+    soften(graph_->relations[tie.relation], loss, pair);
     sum += pair.cost;
   }
   return sum;
@@ -115,11 +144,11 @@ double LinearSystem::linearise(std::span<const Pose2> poses, const RobustLoss& l
   const std::vector<Frame> nodes = frames(poses);
   const Frame world{0, 0, 0, 1, 0};
   double sum = 0;
-  for (const Tie& tie : ties_) {
-    const GraphRelation& r = graph_->relations[tie.relation];
+  for (std::size_t i = 0; i < ties_.size(); ++i) {
+    const Tie& tie = ties_[i];
     const RelativePose T_a_b = relative(tie.a < 0 ? world : nodes[tie.a], nodes[tie.b]);
-    PairExpansion pair = expand(r.measurement, T_a_b);
-    soften(r, loss, pair);
+    PairExpansion pair = expand_tie(i, T_a_b);
+    soften(graph_->relations[tie.relation], loss, pair);
     sum += pair.cost;
     add(tie, pair, T_a_b);
   }
@@ -132,28 +161,33 @@ void LinearSystem::add(const Tie& tie, const PairExpansion& pair, const Relative
   using Segment = Eigen::Map<Vector3d>;
   const bool a_moves = tie.a >= 0 && !is_fixed_[static_cast<std::size_t>(tie.a)];
   const bool b_moves = !is_fixed_[static_cast<std::size_t>(tie.b)];
-  Matrix3d J_a = by_first(T_a_b);
-  Matrix3d J_b = by_second(T_a_b);
+  // J^T M = (M^T J)^T, and the information is symmetric.
+  Matrix3d W_a = times_by_first(pair.information, T_a_b);
+  Matrix3d W_b = times_by_second(pair.information, T_a_b);
+  const Vector3d& g = pair.gradient;
+  Vector3d g_a(-g[0], -g[1], T_a_b.y * g[0] - T_a_b.x * g[1] - g[2]);
+  Vector3d g_b(T_a_b.cosine * g[0] + T_a_b.sine * g[1], T_a_b.cosine * g[1] - T_a_b.sine * g[0], g[2]);
+  Matrix3d H_aa = times_by_first(W_a.transpose(), T_a_b);
+  Matrix3d H_bb = times_by_second(W_b.transpose(), T_a_b);
+  // Row a, column b.
+  Matrix3d H_ab = times_by_second(W_a.transpose(), T_a_b);
   if (!has_no_heading_.empty()) {
-    if (tie.a >= 0 && has_no_heading_[static_cast<std::size_t>(tie.a)]) J_a.col(2).setZero();
-    if (has_no_heading_[static_cast<std::size_t>(tie.b)]) J_b.col(2).setZero();
+    if (tie.a >= 0 && has_no_heading_[static_cast<std::size_t>(tie.a)]) drop_heading(H_aa, g_a), H_ab.row(2).setZero();
+    if (has_no_heading_[static_cast<std::size_t>(tie.b)]) drop_heading(H_bb, g_b), H_ab.col(2).setZero();
   }
-  const Matrix3d W_a = pair.information * J_a;
-  const Matrix3d W_b = pair.information * J_b;
   if (a_moves) {
-    Segment(gradient_.data() + kBlock * tie.a).noalias() += J_a.transpose() * pair.gradient;
-    Block(H_.diagonal.data() + 9 * static_cast<std::size_t>(tie.a)).noalias() += J_a.transpose() * W_a;
+    Segment(gradient_.data() + kBlock * tie.a) += g_a;
+    Block(H_.diagonal.data() + 9 * static_cast<std::size_t>(tie.a)) += H_aa;
   }
   if (b_moves) {
-    Segment(gradient_.data() + kBlock * tie.b).noalias() += J_b.transpose() * pair.gradient;
-    Block(H_.diagonal.data() + 9 * static_cast<std::size_t>(tie.b)).noalias() += J_b.transpose() * W_b;
+    Segment(gradient_.data() + kBlock * tie.b) += g_b;
+    Block(H_.diagonal.data() + 9 * static_cast<std::size_t>(tie.b)) += H_bb;
   }
   if (!a_moves || !b_moves) return;
-  Block block(H_.below.data() + 9 * tie.block);
   if (tie.a > tie.b) {
-    block.noalias() += J_a.transpose() * W_b;
+    Block(H_.below.data() + 9 * tie.block) += H_ab;
   } else {
-    block.noalias() += J_b.transpose() * W_a;
+    Block(H_.below.data() + 9 * tie.block) += H_ab.transpose();
   }
 }
 

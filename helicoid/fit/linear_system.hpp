@@ -15,7 +15,7 @@ namespace helicoid {
 /// The graph's shape and its symbolic factorisation; numbers come with `linearise`.
 class LinearSystem {
  public:
-  /// `fixed` nodes are held. The graph outlives the system; what a relation measured may change, who it ties may not.
+  /// `fixed` nodes are held. The graph outlives the system; and stays as it is.
   LinearSystem(const RelationGraph& graph, std::span<const std::uint32_t> fixed,
                Ordering ordering = Ordering::automatic);
   LinearSystem(const LinearSystem&) = delete;
@@ -60,7 +60,13 @@ class LinearSystem {
   struct Frame {
     double x, y, yaw, cosine, sine;
   };
+  /// A pose-pose relation as it is used again and again: its residual turned into a's frame.
+  struct TurnedPosePose {
+    double x, y, yaw;
+    Matrix3d information;  ///< zero of other relations
+  };
   void tie_up();
+  [[nodiscard]] PairExpansion expand_tie(std::size_t tie, const RelativePose& T_a_b) const;
   void add(const Tie& tie, const PairExpansion& pair, const RelativePose& T_a_b);
   [[nodiscard]] std::vector<Frame> frames(std::span<const Pose2> poses) const;
   [[nodiscard]] static RelativePose relative(const Frame& a, const Frame& b);
@@ -71,8 +77,9 @@ class LinearSystem {
   Supernodes supernodes_;
   BlockMatrix H_;
   std::vector<Tie> ties_;
-  std::vector<bool> is_fixed_;        ///< by place
-  std::vector<bool> has_no_heading_;  ///< by place; empty if all have one
+  std::vector<TurnedPosePose> turned_;  ///< of each tie
+  std::vector<bool> is_fixed_;          ///< by place
+  std::vector<bool> has_no_heading_;    ///< by place; empty if all have one
   std::vector<double> gradient_;
   BlockCholesky cholesky_;
 };

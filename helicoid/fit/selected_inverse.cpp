@@ -1,5 +1,7 @@
 // The inverse's diagonal blocks, from the roots down: a front's rows below are rows of its parent's front, whose part
 // of the inverse is known by then.
+#include <algorithm>
+
 #include "helicoid/fit/block_cholesky.hpp"
 
 namespace helicoid {
@@ -34,15 +36,19 @@ void take_corner(std::span<const FrontRun> runs, const Supernode& child, double*
 std::vector<double> BlockCholesky::inverse_diagonal() const {
   const auto& tree = supernodes_->tree;
   std::vector<double> result(9 * static_cast<std::size_t>(supernodes_->nodes()));
-  std::vector<double> workspace(workspace_.size());
+  const WorkMemory workspace(workspace_.size());
   // The fronts from a root to the supernode at hand; parents stand at known places, since the order is a preorder.
   std::vector<std::size_t> at(tree.size());
-  std::vector<double> stack;
+  std::size_t most = 0;
+  for (std::size_t k = tree.size(); k-- > 0;) {
+    const auto parent = static_cast<std::size_t>(tree[k].parent);
+    at[k] = tree[k].parent < 0 ? 0 : at[parent] + front_size(tree[parent]);
+    most = std::max(most, at[k] + front_size(tree[k]));
+  }
+  const WorkMemory stack(most);
   for (std::size_t k = tree.size(); k-- > 0;) {
     const Supernode& s = tree[k];
-    const std::size_t parent = static_cast<std::size_t>(s.parent);
-    at[k] = s.parent < 0 ? 0 : at[parent] + front_size(tree[parent]);
-    if (stack.size() < at[k] + front_size(s)) stack.resize(2 * (at[k] + front_size(s)));
+    const auto parent = static_cast<std::size_t>(s.parent);
     double* inverse = stack.data() + at[k];
     std::fill_n(inverse, front_size(s), 0.0);
     if (s.parent >= 0) take_corner(supernodes_->runs_of(s), s, inverse, tree[parent], stack.data() + at[parent]);

@@ -79,9 +79,14 @@ std::vector<Group> fundamental_groups(const Adjacency& graph, std::span<const st
   std::vector<Group> groups;
   std::vector<std::int32_t> group_of(order.size(), -1);
   std::vector<std::int32_t> stamp(order.size(), -1);
-  std::vector<std::vector<std::int32_t>> children(order.size());
+  // The groups that hang below each node, as linked lists; -1 ends them.
+  std::vector<std::int32_t> child(order.size(), -1);
+  std::vector<std::int32_t> sibling;
+  std::vector<std::int32_t> rows;
+  groups.reserve(order.size());
+  sibling.reserve(order.size());
   for (std::int32_t j = 0; j < nodes; ++j) {
-    std::vector<std::int32_t> rows;
+    rows.clear();
     stamp[j] = j;
     const auto add = [&](std::int32_t i) {
       if (i <= j || stamp[i] == j) return;
@@ -89,7 +94,7 @@ std::vector<Group> fundamental_groups(const Adjacency& graph, std::span<const st
       rows.push_back(i);
     };
     for (const std::int32_t neighbour : graph.of(order[j])) add(place[neighbour]);
-    for (const std::int32_t g : children[j]) {
+    for (std::int32_t g = child[j]; g >= 0; g = sibling[g]) {
       for (const std::int32_t i : groups[g].rows) add(i);
     }
     // In a postorder j - 1 is a child of j if j has any.
@@ -97,17 +102,19 @@ std::vector<Group> fundamental_groups(const Adjacency& graph, std::span<const st
     if (last >= 0 && groups[last].rows.size() == rows.size() + 1) {
       group_of[j] = last;
       groups[last].columns.push_back(j);
-      for (const std::int32_t g : children[j]) {
+      for (std::int32_t g = child[j]; g >= 0; g = sibling[g]) {
         if (g != last) groups[g].parent = last;
       }
     } else {
       group_of[j] = static_cast<std::int32_t>(groups.size());
-      for (const std::int32_t g : children[j]) groups[g].parent = group_of[j];
+      for (std::int32_t g = child[j]; g >= 0; g = sibling[g]) groups[g].parent = group_of[j];
       groups.push_back({{j}, {}, -1, 0, false});
+      sibling.push_back(-1);
     }
-    groups[group_of[j]].rows = std::move(rows);
-    if (parent[j] >= 0) children[parent[j]].push_back(group_of[j]);
-    std::vector<std::int32_t>().swap(children[j]);
+    groups[group_of[j]].rows.assign(rows.begin(), rows.end());
+    if (parent[j] < 0) continue;
+    sibling[group_of[j]] = child[parent[j]];
+    child[parent[j]] = group_of[j];
   }
   for (Group& group : groups) std::sort(group.rows.begin(), group.rows.end());
   return groups;
