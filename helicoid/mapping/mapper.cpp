@@ -111,7 +111,9 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   tracked.covariance = information.inverse();
 
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
-  bool keep_it = is_far_from_all(robot.local, T_anchor_robot, options);
+  // A scan that saw next to nothing makes no patch: nothing could be matched to it.
+  const bool sees = points.size() >= static_cast<std::size_t>(AlignOptions{}.min_points);
+  bool keep_it = sees && is_far_from_all(robot.local, T_anchor_robot, options);
   if (alignment.usable() && alignment.inlier_share < options.new_surface_share) keep_it = true;
   if (!keep_it && alignment.usable() && has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) {
     robot.T_anchor_coverage_view = T_anchor_robot;
