@@ -20,7 +20,8 @@ constexpr double kUnmeasuredFactor = 5;    // constant velocity is worth this mu
 
 Motion MotionPrior::advance(const Scan& scan, double stamp) {
   Motion motion;
-  const double elapsed = std::clamp(stamp - last_stamp_, 0.0, 10.0) + limits_.slack;
+  // Stamps that stand still or step back tell no time: a usual interval then.
+  const double elapsed = (stamp > last_stamp_ ? std::min(stamp - last_stamp_, 10.0) : 0.3) + limits_.slack;
   if (!scan.has_odometry) {
     motion = {velocity_, false, false};
   } else if (has_last_) {

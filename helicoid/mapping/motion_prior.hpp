@@ -8,9 +8,9 @@
 namespace helicoid {
 
 struct MotionLimits {
-  double speed = 4;      ///< no robot is faster, metres / second
-  double turn_rate = 5;  ///< radians / second
-  double slack = 0.3;    ///< added to the time between scans: stamps are jittery, seconds
+  double speed = 2;        ///< no robot is faster, metres / second
+  double turn_rate = 2.5;  ///< radians / second
+  double slack = 0.1;      ///< added to the time between scans: stamps are jittery, seconds
 };
 
 /// The increment between two scans of one robot.

@@ -1,0 +1,43 @@
+// The quirks of recorded logs, where they are at hand.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "apps/map_run.hpp"
+
+namespace helicoid {
+namespace {
+
+const std::string kData = std::string(HELICOID_SOURCE_DIR) + "/../shared/data/";
+
+Result<MapRun> map_log(const std::string& name) {
+  MapJob job;
+  job.robots = {{name, {kData + name + "/" + name + ".clf.gz"}}};
+  return run_map(job);
+}
+
+std::size_t scans_of(const MapRun& run) {
+  return run.mapper.map().robots()[0].trajectory.size();
+}
+
+TEST(RecordedLogs, ImpossibleOdometryStepsAreSurvivedAndCounted) {
+  if (!std::filesystem::exists(kData + "csail")) GTEST_SKIP() << "no recorded logs in " << kData;
+  const Result<MapRun> run = map_log("csail");
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(scans_of(*run), 1988U);
+  EXPECT_GE(run->mapper.counts().odometry_jumps, 6U);
+  EXPECT_LE(run->mapper.counts().odometry_jumps, 9U);
+  EXPECT_LT(run->mapper.counts().predicted, 20U);
+}
+
+TEST(RecordedLogs, StampsThatStepBackAreNoImpossibleSteps) {
+  if (!std::filesystem::exists(kData + "intel")) GTEST_SKIP() << "no recorded logs in " << kData;
+  const Result<MapRun> run = map_log("intel");
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(scans_of(*run), 13631U);
+  EXPECT_EQ(run->mapper.counts().odometry_jumps, 0U);
+  EXPECT_LT(run->mapper.counts().predicted, 140U);
+}
+
+}  // namespace
+}  // namespace helicoid
