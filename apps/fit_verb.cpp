@@ -124,30 +124,37 @@ Result<std::string> confidence_text(const GraphFile& file, const std::vector<Pos
   return text;
 }
 
-int run_verb(const FitArguments& a) {
-  Result<GraphFile> file = read_graph(a.graph);
-  if (!file) return report_failure(file.error().message);
-  if (!file->warning.empty()) report_warning(file->warning);
-  for (const Skipped& s : file->skipped)
-    report_warning(fmt::format("{} x {}, first at {}", s.count, s.reason, s.first));
-  const bool all_placed = std::find(file->is_placed.begin(), file->is_placed.end(), false) == file->is_placed.end();
-  const std::size_t components = find_components(file->graph).size();
+void warn_of(const GraphFile& file, const std::string& name) {
+  if (!file.warning.empty()) report_warning(file.warning);
+  for (const Skipped& s : file.skipped) report_warning(fmt::format("{} x {}, first at {}", s.count, s.reason, s.first));
+  const std::size_t components = find_components(file.graph).size();
   if (components > 1) {
-    report_warning(fmt::format("{}: falls apart into {} components; each is fitted with its own lowest pose held",
-                               a.graph, components));
+    report_warning(fmt::format("{}: falls apart into {} components; each is fitted with its own lowest pose held", name,
+                               components));
   }
+}
+
+FitOptions options_of(const FitArguments& a) {
   FitOptions options;
   options.method = kMethods.at(a.method);
   options.loss.kind = kLosses.at(a.loss);
   options.loss.width = a.width;
   options.max_iterations = a.max_iterations;
+  return options;
+}
+
+int run_verb(const FitArguments& a) {
+  Result<GraphFile> file = read_graph(a.graph);
+  if (!file) return report_failure(file.error().message);
+  warn_of(*file, a.graph);
+  const bool all_placed = std::find(file->is_placed.begin(), file->is_placed.end(), false) == file->is_placed.end();
   FitStart start = kStarts.at(a.init);
   const bool none_placed = std::find(file->is_placed.begin(), file->is_placed.end(), true) == file->is_placed.end();
   if (none_placed && start == FitStart::given) {
     report_warning(fmt::format("{}: has no VERTEX lines; the fit starts from the odometry chain", a.graph));
   }
   if (!all_placed) file->graph.poses = odometry_start(file->graph, file->is_placed);
-  StartedFit started = fit_from(file->graph, start, options);
+  StartedFit started = fit_from(file->graph, start, options_of(a));
   if (none_placed && started.start == FitStart::given) started.start = FitStart::odometry;
   if (!a.out.empty()) {
     if (auto done = write_whole_file(a.out, to_graph_text(*file, started.result.poses)); !done) {

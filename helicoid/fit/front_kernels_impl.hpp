@@ -13,13 +13,10 @@ constexpr int kPanel = 192;
 /// Fronts from this height on are packed, so that a tile's operands lie side by side.
 constexpr int kPackedHeight = 384;
 
-/// Factorises the triangle of up to eight pivots at `diagonal` and solves the strips beneath it.
+/// Factorises the strip of up to eight pivots; the inverses of its diagonal stand in their places. False: a pivot is
+/// not positive.
 template <int M>
-bool eliminate_few(double* diagonal, std::ptrdiff_t leading, int strips_below) {
-  double L[M][kStrip];
-  for (int j = 0; j < M; ++j) {
-    for (int i = 0; i < kStrip; ++i) L[j][i] = diagonal[i + j * leading];
-  }
+bool factorise_few(double (&L)[M][kStrip]) {
   for (int j = 0; j < M; ++j) {
     if (!(L[j][j] > 0)) return false;
     const double inverse = 1 / __builtin_sqrt(L[j][j]);
@@ -30,6 +27,17 @@ bool eliminate_few(double* diagonal, std::ptrdiff_t leading, int strips_below) {
     }
     L[j][j] = inverse;
   }
+  return true;
+}
+
+/// Factorises the triangle of up to eight pivots at `diagonal` and solves the strips beneath it.
+template <int M>
+bool eliminate_few(double* diagonal, std::ptrdiff_t leading, int strips_below) {
+  double L[M][kStrip];
+  for (int j = 0; j < M; ++j) {
+    for (int i = 0; i < kStrip; ++i) L[j][i] = diagonal[i + j * leading];
+  }
+  if (!factorise_few<M>(L)) return false;
   for (int j = 0; j < M; ++j) {
     // Above the diagonal is nothing, and beneath the last pivot are pads.
     for (int i = 0; i < M; ++i) diagonal[i + j * leading] = i < j ? 0 : L[j][i];

@@ -13,6 +13,14 @@ double excess(const GraphRelation& r, std::span<const Pose2> poses) {
   return 2 * std::max(0.0, cost(r.measurement, RelativePose::of(T_a_b)) - least);
 }
 
+void add(const FitTimes& times, FitTimes& sum) {
+  sum.order_s += times.order_s;
+  sum.linearise_s += times.linearise_s;
+  sum.factorise_s += times.factorise_s;
+  sum.solve_s += times.solve_s;
+  sum.total_s += times.total_s;
+}
+
 }  // namespace
 
 RobustFit fit_robustly(const RelationGraph& graph, std::span<const std::uint32_t> fixed, const FitOptions& options) {
@@ -37,11 +45,7 @@ RobustFit fit_robustly(const RelationGraph& graph, std::span<const std::uint32_t
     robust.result = fit(moving, fixed, with);
     moving.poses = robust.result.poses;
     iterations += robust.result.iterations;
-    times.order_s += robust.result.times.order_s;
-    times.linearise_s += robust.result.times.linearise_s;
-    times.factorise_s += robust.result.times.factorise_s;
-    times.solve_s += robust.result.times.solve_s;
-    times.total_s += robust.result.times.total_s;
+    add(robust.result.times, times);
   };
   for (soft.loss.softness = std::max(0.0, (2 * most - square) / square); soft.loss.softness > 0.01;
        soft.loss.softness /= kHardening) {

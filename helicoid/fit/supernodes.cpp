@@ -185,6 +185,13 @@ void append_runs(Supernodes& result, Supernode& s) {
   }
 }
 
+/// A parent comes after its children.
+void set_depths(std::vector<Supernode>& tree) {
+  for (std::size_t k = tree.size(); k-- > 0;) {
+    tree[k].depth = tree[k].parent < 0 ? 0 : tree[tree[k].parent].depth + 1;
+  }
+}
+
 /// Numbers the groups' columns anew, in a postorder of the merged tree, and lays out the fronts.
 Supernodes lay_out(const std::vector<Group>& groups, std::span<const std::int32_t> order) {
   std::vector<std::int32_t> parent(groups.size());
@@ -221,10 +228,7 @@ Supernodes lay_out(const std::vector<Group>& groups, std::span<const std::int32_
     s.panel = result.panels;
     result.panels += s.shape().panel_size();
   }
-  for (std::size_t k = kept.size(); k-- > 0;) {
-    Supernode& s = result.tree[k];
-    s.depth = s.parent < 0 ? 0 : result.tree[s.parent].depth + 1;
-  }
+  set_depths(result.tree);
   for (Supernode& s : result.tree) append_runs(result, s);
   return result;
 }
