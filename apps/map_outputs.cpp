@@ -69,7 +69,7 @@ Result<void> write_trajectories(const Map& map, const MapReport& report, const s
 struct Pictures {
   std::vector<std::string> paths;
   Result<void> status;
-  void add(const std::string& path, Result<void> written) {
+  void add(const std::string& path, const Result<void>& written) {
     if (status && !written) status = written;
     if (written) paths.push_back(path);
   }
