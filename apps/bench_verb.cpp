@@ -88,7 +88,8 @@ std::vector<Benchmark> benchmarks(const BenchOptions& options) {
 void add_bench_verb(CLI::App& program, int& exit_code) {
   auto a = std::make_shared<BenchArguments>();
   CLI::App* verb = program.add_subcommand("bench", "Measure quality and CPU time, each beside a baseline");
-  verb->add_option("--filter", a->filter, "only benchmarks whose name holds this (read, rays, fit, map, laps, office, ...)");
+  verb->add_option("--filter", a->filter,
+                   "only benchmarks whose name holds this (read, rays, fit, map, laps, office, ...)");
   verb->add_option("--data", a->options.data, "the folder of recorded data; logs that are not there are skipped");
   verb->add_option("--repeats", a->options.repeats, "the least CPU time of so many runs counts")
       ->check(CLI::Range(1, 100))

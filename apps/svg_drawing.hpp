@@ -12,7 +12,7 @@ namespace helicoid {
 
 struct Stroke {
   charts::Colour colour = charts::kText;
-  double width = 1;            ///< pixels
+  double width = 1;       ///< pixels
   std::string_view dash;  ///< SVG's stroke-dasharray; empty: drawn through
 };
 
