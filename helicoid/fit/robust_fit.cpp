@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "helicoid/fit/consistent_start.hpp"
+
 namespace helicoid {
 
 namespace {
@@ -30,6 +32,8 @@ RobustFit fit_robustly(const RelationGraph& graph, std::span<const std::uint32_t
     return robust;
   }
   RelationGraph moving = graph;
+  ConsistentStart start = consistent_start(graph, fixed, options);
+  if (start.is_determined) moving.poses = std::move(start.poses);
   // Soft enough to be convex at the start (their remark 5): mu = w^2 / (2 largest chi^2 - w^2).
   double most = 0;
   for (const GraphRelation& r : graph.relations) {
@@ -39,6 +43,7 @@ RobustFit fit_robustly(const RelationGraph& graph, std::span<const std::uint32_t
   FitOptions soft = options;
   soft.max_iterations = 5;
   FitTimes times;
+  times.total_s = start.cpu_s;
   int iterations = 0;
   constexpr double kHardening = 1.4;
   const auto run = [&](const FitOptions& with) {
@@ -47,7 +52,10 @@ RobustFit fit_robustly(const RelationGraph& graph, std::span<const std::uint32_t
     iterations += robust.result.iterations;
     add(robust.result.times, times);
   };
-  for (soft.loss.softness = std::max(0.0, (2 * most - square) / square); soft.loss.softness > 0.01;
+  // From a start that agrees with the trusted relations the loss need not let everything in again.
+  constexpr double kSoftEnough = 4;
+  const double convex = std::max(0.0, (2 * most - square) / square);
+  for (soft.loss.softness = start.is_determined ? std::min(convex, kSoftEnough) : convex; soft.loss.softness > 0.01;
        soft.loss.softness /= kHardening) {
     run(soft);
   }

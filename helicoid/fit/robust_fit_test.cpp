@@ -1,0 +1,84 @@
+#include "helicoid/fit/robust_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include "helicoid/fit/consistent_start.hpp"
+#include "helicoid/fit/initial_guess.hpp"
+#include "tests/random_graph.hpp"
+
+namespace helicoid {
+
+namespace {
+
+constexpr LossKind kKinds[] = {LossKind::quadratic, LossKind::huber, LossKind::cauchy, LossKind::truncated};
+
+/// As many wrong closures as right ones, the wrong ones at the end.
+RelationGraph with_wrong_closures(RelationGraph graph, std::uint64_t seed, std::size_t wrong) {
+  Random random(seed);
+  const auto any = [&] { return static_cast<std::uint32_t>(random.below(graph.poses.size())); };
+  for (std::size_t k = 0; k < wrong; ++k) {
+    const std::uint32_t a = any();
+    const std::uint32_t b = (a + 2 + any() % (graph.poses.size() - 3)) % graph.poses.size();
+    graph.relations.push_back({a, b, PosePose{random_pose(random, 10), random_information(random)}, true});
+  }
+  return graph;
+}
+
+}  // namespace
+
+TEST(RobustLoss, TheWeightIsTheSlopeOfTheLoss) {
+  for (const LossKind kind : kKinds) {
+    for (const double softness : {0.0, 0.3, 2.0}) {
+      const RobustLoss loss{kind, 3, softness};
+      for (double chi2 = 0.05; chi2 < 60; chi2 += 0.37) {
+        const double numeric = (evaluate(loss, chi2 + 1e-6).value - evaluate(loss, chi2 - 1e-6).value) / 2e-6;
+        EXPECT_NEAR(evaluate(loss, chi2).weight, numeric, 1e-6) << "chi2 " << chi2;
+      }
+    }
+  }
+}
+
+TEST(RobustLoss, NeverExceedsTheQuadraticOneAndNeverFalls) {
+  for (const LossKind kind : kKinds) {
+    double last = 0;
+    for (double chi2 = 0; chi2 < 60; chi2 += 0.1) {
+      const double value = evaluate({kind, 3, 0}, chi2).value;
+      EXPECT_LE(value, chi2 + 1e-12);
+      EXPECT_GE(value, last);
+      last = value;
+    }
+  }
+}
+
+TEST(RobustFit, WithoutWrongRelationsItIsThePlainOptimum) {
+  const RelationGraph graph = random_graph(21, 60, 60);
+  FitOptions options;
+  options.loss = {LossKind::truncated, 8, 0};
+  const RobustFit robust = fit_robustly(graph, default_gauge(graph), options);
+  const FitResult plain = fit(graph);
+  EXPECT_NEAR(robust.result.final_cost, plain.final_cost, 1e-6 * plain.final_cost);
+  EXPECT_TRUE(robust.wrong.empty());
+}
+
+TEST(RobustFit, LetsExactlyTheWrongClosuresGo) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    RelationGraph clean = random_graph(seed, 120, 60);
+    clean.poses = odometry_start(clean);
+    std::size_t right = 0;
+    for (const GraphRelation& r : clean.relations) right += r.may_be_wrong ? 1 : 0;
+    const RelationGraph graph = with_wrong_closures(clean, seed, right);
+    FitOptions options;
+    options.loss = {LossKind::truncated, 8, 0};
+    const RobustFit robust = fit_robustly(graph, default_gauge(graph), options);
+    ASSERT_EQ(robust.wrong.size(), right) << "seed " << seed;
+    for (const std::uint32_t i : robust.wrong) EXPECT_GE(i, clean.relations.size());
+  }
+}
+
+TEST(ConsistentStart, TrustedRelationsThatLeaveAPoseOpenAreSaid) {
+  RelationGraph graph = random_graph(3, 10, 0);
+  for (GraphRelation& r : graph.relations) r.may_be_wrong = true;
+  EXPECT_FALSE(consistent_start(graph, default_gauge(graph), {}).is_determined);
+}
+
+}  // namespace helicoid
