@@ -48,8 +48,9 @@ StartedFit fit_once(const RelationGraph& graph, FitStart start, const FitOptions
   return started;
 }
 
-StartedFit fit_at(RelationGraph graph, FitStart start, const FitOptions& options) {
-  if (start == FitStart::given) return fit_once(graph, start, options);
+StartedFit fit_at(const RelationGraph& given, FitStart start, const FitOptions& options) {
+  if (start == FitStart::given) return fit_once(given, start, options);
+  RelationGraph graph = given;
   double seconds = 0;
   {
     const CpuTimer timer(seconds);
