@@ -3,7 +3,7 @@
 namespace helicoid {
 
 const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> all{crispness_experiment(), laps_experiment()};
+  static const std::vector<Experiment> all{crispness_experiment(), laps_experiment(), outliers_experiment()};
   return all;
 }
 

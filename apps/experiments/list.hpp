@@ -7,5 +7,6 @@ namespace helicoid {
 
 [[nodiscard]] Experiment crispness_experiment();
 [[nodiscard]] Experiment laps_experiment();
+[[nodiscard]] Experiment outliers_experiment();
 
 }  // namespace helicoid

@@ -1,0 +1,109 @@
+// Does the robust fit let wrong loop closures go?
+#include <filesystem>
+
+#include "apps/experiments/list.hpp"
+#include "helicoid/base/random.hpp"
+#include "helicoid/fit/initial_guess.hpp"
+#include "helicoid/fit/robust_fit.hpp"
+#include "helicoid/io/graph_reader.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// As many wrong closures as there are right ones, each with the information of one of those; `group` of them in a row
+/// agree with one another.
+std::size_t add_wrong_closures(RelationGraph& graph, Random random, std::uint32_t group) {
+  std::vector<std::size_t> right;
+  for (std::size_t i = 0; i < graph.relations.size(); ++i) {
+    if (graph.relations[i].may_be_wrong) right.push_back(i);
+  }
+  const auto count = static_cast<std::uint32_t>(graph.poses.size());
+  std::size_t added = 0;
+  while (added < right.size()) {
+    const auto a = static_cast<std::uint32_t>(random.below(count - group));
+    const auto b = static_cast<std::uint32_t>(random.below(count - group));
+    if (a < b + 2 * group && b < a + 2 * group) continue;
+    const Pose2 wrong{random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-3, 3)};
+    for (std::uint32_t k = 0; k < group && added < right.size(); ++k, ++added) {
+      // Where the two stretches are led past one another as rigid bodies, all closures say the same.
+      const Pose2 T_a_ak = graph.poses[a].inverse() * graph.poses[a + k];
+      const Pose2 T_b_bk = graph.poses[b].inverse() * graph.poses[b + k];
+      const auto& like = std::get<PosePose>(graph.relations[right[random.below(right.size())]].measurement);
+      graph.relations.push_back({a + k, b + k, PosePose{T_a_ak.inverse() * wrong * T_b_bk, like.information}, true});
+    }
+  }
+  return added;
+}
+
+double cost_of(const RelationGraph& graph, const std::vector<Pose2>& poses) {
+  double sum = 0;
+  for (const GraphRelation& r : graph.relations) {
+    sum += cost(r.measurement, RelativePose::of(poses[r.a].inverse() * poses[r.b]));
+  }
+  return sum;
+}
+
+Result<Outcome> measure(const std::string& path, std::uint64_t seed, std::uint32_t group) {
+  Result<GraphFile> file = read_graph(path);
+  if (!file) return tl::unexpected(file.error());
+  RelationGraph& clean = file->graph;
+  clean.poses = odometry_start(clean, file->is_placed);
+  const FitResult best = fit(clean);
+  RelationGraph wrong = clean;
+  wrong.poses = best.poses;
+  const std::size_t added = add_wrong_closures(wrong, Random(seed), group);
+  wrong.poses = clean.poses;
+  FitOptions options;
+  options.loss.kind = LossKind::truncated;
+  const RobustFit robust = fit_robustly(wrong, default_gauge(wrong), options);
+  std::size_t found = 0;
+  for (const std::uint32_t i : robust.wrong) found += i >= clean.relations.size() ? 1 : 0;
+  const double excess = 100 * (cost_of(clean, robust.result.poses) / best.final_cost - 1);
+  const double none = 100 * (cost_of(clean, fit(wrong).poses) / best.final_cost - 1);
+  return Outcome{{{"excess_cost_percent", excess},
+                  {"excess_cost_without_robust_loss_percent", none},
+                  {"wrong_kept_count", static_cast<double>(added - found)},
+                  {"right_dropped_count", static_cast<double>(robust.wrong.size() - found)},
+                  {"cpu_s", robust.result.times.total_s}},
+                 {}};
+}
+
+std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
+  std::vector<ExperimentCase> cases;
+  for (const char* name : {"manhattan", "intel"}) {
+    const std::string path = options.data + "/posegraphs/" + name + ".g2o.gz";
+    std::error_code error;
+    const bool there = !options.data.empty() && std::filesystem::exists(path, error);
+    for (const std::uint32_t group : {1U, 10U}) {
+      ExperimentCase c{fmt::format("{} {}", name, group == 1 ? "random" : "grouped"), true, "", {}};
+      if (!there)
+        c.missing = fmt::format("the recorded graph posegraphs/{}.g2o.gz is not there; --data names its folder", name);
+      c.run = [path, group](std::uint64_t seed) { return measure(path, seed, group); };
+      cases.push_back(std::move(c));
+    }
+  }
+  return cases;
+}
+
+}  // namespace
+
+Experiment outliers_experiment() {
+  Experiment e;
+  e.name = "outliers";
+  e.question = "Does the robust fit let wrong loop closures go?";
+  e.method =
+      "To each recorded graph as many wrong closures are added as it has right ones, with the information of right "
+      "ones: "
+      "between random nodes, or in groups of ten that agree with one another. The truncated loss with graduated "
+      "non-convexity starts from dead reckoning, takes in what agrees with it and must find the right ones by itself. "
+      "What counts is the cost of the "
+      "clean graph at the poses found, beside that of its own optimum.";
+  e.bars = {{"excess_cost_percent", std::nullopt, 5.0, false}};
+  e.seeds = 5;
+  e.quick_seeds = 1;
+  e.cases = list_cases;
+  return e;
+}
+
+}  // namespace helicoid
