@@ -121,7 +121,9 @@ Sums sum_residuals(const Pairing& pairs, const Pose2& T, float robust_scale) {
   return result;
 }
 
-Vector3d difference(const Pose2& a, const Pose2& b) { return {a.x - b.x, a.y - b.y, wrap_angle(a.yaw - b.yaw)}; }
+Vector3d difference(const Pose2& a, const Pose2& b) {
+  return {a.x - b.x, a.y - b.y, wrap_angle(a.yaw - b.yaw)};
+}
 
 /// A direction is open when the beams, honestly counted, say less about it than this many metres (or radians per
 /// metre of lever) allow.

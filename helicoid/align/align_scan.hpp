@@ -8,7 +8,7 @@
 namespace helicoid {
 
 struct AlignOptions {
-  double first_gate = 0.25;     ///< pairs farther apart are not considered in the first round, metres
+  double first_gate = 0.25;    ///< pairs farther apart are not considered in the first round, metres
   double last_gate = 0.12;     ///< the same in the last rounds
   double robust_scale = 0.03;  ///< residuals beyond it lose their weight (Geman-McClure), metres
   double range_sigma = 0.012;  ///< of a residual, reference included: the unit of the information, metres
@@ -41,8 +41,8 @@ struct Alignment {
   /// Gauss-Newton information of (x, y, yaw) from the beams alone, all beams taken as independent: not divided by
   /// kappa, prior left out. Singular in a corridor.
   Matrix3d information = Matrix3d::Zero();
-  double inlier_share = 0;   ///< of the points with a normal
-  double rms = 0;            ///< of the inliers' residuals, metres
+  double inlier_share = 0;  ///< of the points with a normal
+  double rms = 0;           ///< of the inliers' residuals, metres
   int iterations = 0;
   [[nodiscard]] bool usable() const { return status == AlignStatus::aligned || status == AlignStatus::degenerate; }
 };

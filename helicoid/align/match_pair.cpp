@@ -106,8 +106,8 @@ PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T
     if (b.weight[i] <= 0) continue;
     const float px = b.x[i];
     const float py = b.y[i];
-    const auto range = window.at(to_laser.x + to_laser.c * px - to_laser.s * py,
-                                 to_laser.y + to_laser.s * px + to_laser.c * py);
+    const auto range =
+        window.at(to_laser.x + to_laser.c * px - to_laser.s * py, to_laser.y + to_laser.s * px + to_laser.c * py);
     if (range.first == range.last) continue;
     ++match.candidates;
     const float x = to_a.x + to_a.c * px - to_a.s * py;

@@ -22,10 +22,10 @@ struct MatchPairOptions {
 };
 
 struct PairMatch {
-  PairForm form;            ///< in T_a_b: points of b on lines of a; information as if beams were independent
+  PairForm form;  ///< in T_a_b: points of b on lines of a; information as if beams were independent
   int correspondences = 0;
-  int candidates = 0;       ///< points of b with a normal that look at a place within a's view
-  double squares = 0;       ///< weighted sum of squared residuals at T_a_b, m^2
+  int candidates = 0;  ///< points of b with a normal that look at a place within a's view
+  double squares = 0;  ///< weighted sum of squared residuals at T_a_b, m^2
 };
 
 /// Matches b's points to a's lines at this relative pose.

@@ -23,16 +23,16 @@ namespace {
 struct RobotState {
   std::vector<ScanPointExtractor> extractors;  ///< one a laser
   MotionPrior motion;
-  ManifoldPose pose;  ///< rho_t; its patch is the anchor
-  LocalMap local;     ///< about the anchor
-  Reference reference;  ///< in the anchor's frame
+  ManifoldPose pose;              ///< rho_t; its patch is the anchor
+  LocalMap local;                 ///< about the anchor
+  Reference reference;            ///< in the anchor's frame
   Pose2 T_anchor_reference_view;  ///< from where the reference was chosen
   Pose2 T_anchor_coverage_view;   ///< where coverage was looked at last
-  bool stale = true;            ///< the local map and the reference must be made again
+  bool stale = true;              ///< the local map and the reference must be made again
   PatchId last_kept;
-  Pose2 T_kept_robot_raw;   ///< raw odometry since the last kept patch
-  double path = 0;          ///< along it, metres
-  double turn = 0;          ///< radians
+  Pose2 T_kept_robot_raw;  ///< raw odometry since the last kept patch
+  double path = 0;         ///< along it, metres
+  double turn = 0;         ///< radians
 };
 
 double thread_seconds() {
@@ -186,9 +186,9 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
   Alignment alignment = align_scan(robot.reference, points, prior, align);
   if (robot.motion.in_doubt() || alignment.inlier_share < options.good_inlier_share) {
     const Motion steady = robot.motion.constant_velocity();
-    const Alignment other = align_scan(
-        robot.reference, points,
-        {robot.pose.T_patch_robot * steady.T_last_now, robot.motion.information(steady)}, align);
+    const Alignment other =
+        align_scan(robot.reference, points,
+                   {robot.pose.T_patch_robot * steady.T_last_now, robot.motion.information(steady)}, align);
     if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
   }
   if (alignment.status == AlignStatus::too_few_inliers || alignment.inlier_share < options.good_inlier_share) {
@@ -235,7 +235,8 @@ void Mapper::State::relate_to_last(RobotState& robot, PatchId id) {
 void Mapper::State::add_relation(const Relation& relation) {
   editor.add_relation(relation);
   const Pose2 T_a_b = map.T_plane_patch(relation.a).inverse() * map.T_plane_patch(relation.b);
-  graph.add(relation.a.value, relation.b.value, T_a_b, expand(relation.form, T_a_b).information / information_divisor(map, relation));
+  graph.add(relation.a.value, relation.b.value, T_a_b,
+            expand(relation.form, T_a_b).information / information_divisor(map, relation));
 }
 
 void Mapper::State::reanchor(RobotState& robot) {
@@ -286,10 +287,18 @@ Step Mapper::process(const Event& event) {
   return {};
 }
 
-void Mapper::finish() { state_->fit_islands(); }
+void Mapper::finish() {
+  state_->fit_islands();
+}
 
-const Map& Mapper::map() const { return state_->map; }
-const MapperCounts& Mapper::counts() const { return state_->counts; }
-const MapperTimes& Mapper::times() const { return state_->times; }
+const Map& Mapper::map() const {
+  return state_->map;
+}
+const MapperCounts& Mapper::counts() const {
+  return state_->counts;
+}
+const MapperTimes& Mapper::times() const {
+  return state_->times;
+}
 
 }  // namespace helicoid

@@ -13,17 +13,17 @@ namespace helicoid {
 
 /// What became of one scan.
 enum class StepStatus : std::uint8_t {
-  matched,       ///< fitted against the local map
-  first,         ///< the first scan of a robot: it starts an island
-  predicted,     ///< not matched (too few inliers, degenerate): odometry alone says where it was taken
-  not_a_scan,    ///< odometry or a sighting
+  matched,     ///< fitted against the local map
+  first,       ///< the first scan of a robot: it starts an island
+  predicted,   ///< not matched (too few inliers, degenerate): odometry alone says where it was taken
+  not_a_scan,  ///< odometry or a sighting
 };
 
 /// What one event did.
 struct Step {
   StepStatus status = StepStatus::not_a_scan;
-  ManifoldPose pose;     ///< of the robot, after the step
-  PatchId new_patch;     ///< valid if the scan was kept as a patch
+  ManifoldPose pose;  ///< of the robot, after the step
+  PatchId new_patch;  ///< valid if the scan was kept as a patch
   int iterations = 0;
   double inlier_share = 0;  ///< of the points that had a normal
 };
@@ -33,13 +33,13 @@ struct MapperCounts {
   std::size_t scans = 0;
   std::size_t matched = 0;
   std::size_t predicted = 0;
-  std::size_t empty_scans = 0;           ///< scans without a single return
-  std::size_t odometry_jumps = 0;        ///< impossible steps, replaced by a constant-velocity prediction
+  std::size_t empty_scans = 0;     ///< scans without a single return
+  std::size_t odometry_jumps = 0;  ///< impossible steps, replaced by a constant-velocity prediction
   std::size_t scans_without_odometry = 0;
   std::size_t sightings = 0;
   std::size_t unidentified_sightings = 0;  ///< of "?" or of a name that no robot has
   std::size_t self_sightings = 0;
-  std::size_t coarse_searches = 0;       ///< restarts at a fan of headings
+  std::size_t coarse_searches = 0;  ///< restarts at a fan of headings
 };
 
 /// CPU seconds of the thread, by what they were spent on.
