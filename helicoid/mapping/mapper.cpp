@@ -14,26 +14,11 @@
 #include "helicoid/mapping/motion_prior.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 #include "helicoid/mapping/relate.hpp"
+#include "helicoid/mapping/robot_state.hpp"
 
 namespace helicoid {
 
 namespace {
-
-/// What the mapper keeps of one robot between its scans.
-struct RobotState {
-  std::vector<ScanPointExtractor> extractors;  ///< one a laser
-  MotionPrior motion;
-  ManifoldPose pose;              ///< rho_t; its patch is the anchor
-  LocalMap local;                 ///< about the anchor
-  Reference reference;            ///< in the anchor's frame
-  Pose2 T_anchor_reference_view;  ///< from where the reference was chosen
-  Pose2 T_anchor_coverage_view;   ///< where coverage was looked at last
-  bool stale = true;              ///< the local map and the reference must be made again
-  PatchId last_kept;
-  Pose2 T_kept_robot_raw;  ///< raw odometry since the last kept patch
-  double path = 0;         ///< along it, metres
-  double turn = 0;         ///< radians
-};
 
 double thread_seconds() {
   timespec now{};
