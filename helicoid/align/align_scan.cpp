@@ -42,13 +42,14 @@ struct Pairing {
     weight[size++] = w;
   }
   void pad() {
-    while (size % kLanes != 0) add(0, 0, {0, 0, 0, 0, 0}, 0);
+    while (size % kLanes != 0) add(0, 0, {}, 0);
   }
 };
 
-/// E step (IV-A step 3): pairs every stride-th point with the nearest surface of its side.
+/// E step (IV-A step 3): pairs every stride-th point with the nearest surface of its side. `bias_share`: the incidence
+/// bias in standard deviations of a residual.
 void pair_points(const Reference& reference, const ScanPoints& scan, const Pose2& T, float gate, std::size_t stride,
-                 Pairing& pairing) {
+                 float bias_share, Pairing& pairing) {
   const auto c = static_cast<float>(std::cos(T.yaw));
   const auto s = static_cast<float>(std::sin(T.yaw));
   const auto tx = static_cast<float>(T.x);
@@ -64,7 +65,9 @@ void pair_points(const Reference& reference, const ScanPoints& scan, const Pose2
     const float nx = c * scan.nx[i] - s * scan.ny[i];
     const float ny = s * scan.nx[i] + c * scan.ny[i];
     const SurfaceElement* e = reference.nearest(tx + c * x - s * y, ty + s * x + c * y, nx, ny, gate);
-    if (e != nullptr) pairing.add(x, y, *e, scan.weight[i]);
+    if (e == nullptr) continue;
+    const float bias = bias_share * (scan.facing[i] - e->facing);
+    pairing.add(x, y, *e, scan.weight[i] / (1 + bias * bias));
   }
   pairing.pad();
 }
@@ -161,6 +164,7 @@ Alignment align_scan(const Reference& reference, const ScanPoints& scan, const P
 
   const double beam_information = 1 / (options.range_sigma * options.range_sigma);
   const double against_prior = beam_information / options.kappa;
+  const auto bias_share = static_cast<float>(options.incidence_bias / options.range_sigma);
   double gate = options.first_gate;
   std::size_t stride = kFirstStride;
   int full_rounds = 0;
@@ -171,7 +175,7 @@ Alignment align_scan(const Reference& reference, const ScanPoints& scan, const P
     ++result.iterations;
     const bool last_chance = result.iterations >= options.max_iterations - 3;
     if (last_chance) stride = 1;
-    pair_points(reference, scan, T, static_cast<float>(gate), stride, pairs);
+    pair_points(reference, scan, T, static_cast<float>(gate), stride, bias_share, pairs);
     const double scale = std::max(options.robust_scale, 0.33 * gate);
     const Pose2 T_paired = T;
     for (int inner = 0; inner < 2; ++inner) {
@@ -219,7 +223,7 @@ Alignment align_scan_in_fan(const Reference& reference, const ScanPoints& scan, 
   for (int k = -steps; k <= steps; ++k) {
     Pose2 T = prior.T_reference_scan;
     T.yaw = wrap_angle(T.yaw + k * fan.step);
-    pair_points(reference, scan, T, 0.3F, 3, pairs);
+    pair_points(reference, scan, T, 0.3F, 3, 0, pairs);
     starts.push_back({sum_residuals(pairs, T, 0.1F).weights, k * fan.step});
   }
   std::stable_sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.score > b.score; });

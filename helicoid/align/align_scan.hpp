@@ -12,6 +12,7 @@ struct AlignOptions {
   double last_gate = 0.12;     ///< the same in the last rounds
   double robust_scale = 0.03;  ///< residuals beyond it lose their weight (Geman-McClure), metres
   double range_sigma = 0.012;  ///< of a residual, reference included: the unit of the information, metres
+  double incidence_bias = 0.03;  ///< pairs seen at different incidence disagree by this much a unit of cosine, metres
   double kappa = 8;            ///< beams that carry the information of one; divides the information against the prior
   double prior_freedom = 4;    ///< degrees of freedom of the prior's Student t: small = heavy tails
   int max_iterations = 20;

@@ -101,6 +101,7 @@ PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T
   const PointTransform to_laser(a.T_patch_laser.inverse() * T_a_b);
   const auto gate = static_cast<float>(options.gate);
   const double information = 1 / (options.range_sigma * options.range_sigma);
+  const double bias_share = options.incidence_bias / options.range_sigma;
   const double per_square_scale = 1 / (options.robust_scale * options.robust_scale);
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (b.weight[i] <= 0) continue;
@@ -120,7 +121,8 @@ PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T
     const Vector2d normal(lines.nx[j], lines.ny[j]);
     const double residual = normal.dot(Vector2d(x, y) - q_a);
     const double robust = 1 / (1 + residual * residual * per_square_scale);
-    const double weight = static_cast<double>(b.weight[i]) * lines.weight[j] * robust * robust;
+    const double bias = bias_share * static_cast<double>(b.facing[i] - lines.facing[j]);
+    const double weight = static_cast<double>(b.weight[i]) * lines.weight[j] * robust * robust / (1 + bias * bias);
     match.form.add(point_line_row(Vector2d(px, py), q_a, normal), weight * information);
     match.squares += weight * residual * residual;
     if (robust > 0.2) ++match.correspondences;

@@ -34,7 +34,7 @@ void Reference::gather(std::span<const ReferencePart> parts) {
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (p.weight[i] <= 0) continue;
       points_.push_back({tx + c * p.x[i] - s * p.y[i], ty + s * p.x[i] + c * p.y[i], c * p.nx[i] - s * p.ny[i],
-                         s * p.nx[i] + c * p.ny[i], p.weight[i]});
+                         s * p.nx[i] + c * p.ny[i], p.weight[i], p.facing[i]});
     }
   }
 }
@@ -84,11 +84,12 @@ void Reference::fuse() {
       e.nx += p.weight * p.nx;
       e.ny += p.weight * p.ny;
       e.weight += p.weight;
+      e.facing += p.weight * p.facing;
     } else {
       next_.push_back(head_[cell]);
       head_[cell] = static_cast<std::int32_t>(fused_.size());
       cell_of_.push_back(static_cast<std::uint32_t>(cell));
-      fused_.push_back({p.weight * p.x, p.weight * p.y, p.weight * p.nx, p.weight * p.ny, p.weight});
+      fused_.push_back({p.weight * p.x, p.weight * p.y, p.weight * p.nx, p.weight * p.ny, p.weight, p.weight * p.facing});
     }
   }
 }
@@ -105,7 +106,7 @@ void Reference::sort_by_cell() {
     const float scale = 1 / e.weight;
     const float length = std::sqrt(e.nx * e.nx + e.ny * e.ny);
     elements_[start_[cell_of_[i]] + head_[cell_of_[i]]++] = {e.x * scale, e.y * scale, e.nx / length, e.ny / length,
-                                                             e.weight};
+                                                             e.weight, e.facing * scale};
   }
 }
 

@@ -21,6 +21,7 @@ struct SurfaceElement {
   float x, y;    ///< metres, reference frame
   float nx, ny;  ///< unit normal, towards the observers
   float weight;  ///< sum of the points' weights
+  float facing;  ///< weighted mean of the points' (ScanPoints::facing)
 };
 
 /// Surface elements in a grid, row by row, so that a search reads a few contiguous runs. Rebuilt when the robot has

@@ -50,7 +50,7 @@ void add_laser(Hasher& hasher, const LaserModel& laser) {
   hasher.add_int(laser.beams);
   for (const double number :
        {laser.first_bearing, laser.bearing_step, laser.max_range, laser.min_range, laser.range_sigma, laser.kappa,
-        laser.floor_position, laser.floor_heading, laser.largest_gap, laser.scan_duration}) {
+        laser.incidence_bias, laser.floor_position, laser.floor_heading, laser.largest_gap, laser.scan_duration}) {
     hasher.add(number);
   }
 }

@@ -168,6 +168,7 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
                                const LaserModel& laser) {
   AlignOptions align;
   align.kappa = laser.kappa;
+  align.incidence_bias = laser.incidence_bias;
   Alignment alignment = align_scan(robot.reference, points, prior, align);
   if (robot.motion.in_doubt() || alignment.inlier_share < options.good_inlier_share) {
     const Motion steady = robot.motion.constant_velocity();
@@ -192,6 +193,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   const std::vector<LocalPatch> views = select_views(robot.local, matched.T_reference_scan, options.relation_views);
   RelateOptions relate_options;
   relate_options.kappa = laser.kappa;
+  relate_options.match.incidence_bias = laser.incidence_bias;
   // The prior of the new patch's fit is odometry's only: the match's own beams must not count twice.
   const RelatedPatch related =
       relate(map, views, patch.points, {matched.T_reference_scan, 1e-3 * Matrix3d::Identity()}, relate_options);

@@ -17,6 +17,9 @@ struct LaserModel {
   double range_sigma = 0.01;  ///< standard deviation of a range, rounding included; metres
   /// How many beams carry the information of one independent beam: a pair's information is M / kappa (design 5.3).
   double kappa = 8;
+  /// Systematic error of a range that changes with how a surface is met (footprint, reflectance): metres between a beam
+  /// that meets it head on and one that grazes it.
+  double incidence_bias = 0.03;
   double floor_position = 0.003;  ///< noise that all beams of a scan share, once per scan: metres
   double floor_heading = 0.0017;  ///< the same, of the heading: radians
   /// Beams farther apart than this do not vouch for the space between them; metres.

@@ -49,6 +49,7 @@ void ScanPoints::resize(std::size_t count) {
   nx.resize(count);
   ny.resize(count);
   weight.resize(count);
+  facing.resize(count);
   beam.resize(count);
 }
 
@@ -93,7 +94,7 @@ void ScanPointExtractor::find_normals(float laser_x, float laser_y) {
   std::size_t first = 0;  // first..last support point i
   std::size_t last = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    points_.nx[i] = points_.ny[i] = points_.weight[i] = 0;
+    points_.nx[i] = points_.ny[i] = points_.weight[i] = points_.facing[i] = 0;
     if (i >= end) {
       begin = i;
       for (end = i + 1; end < count; ++end) {
@@ -111,9 +112,13 @@ void ScanPointExtractor::find_normals(float laser_x, float laser_y) {
     if (last - first < 2) continue;
     const Surface surface = fit_surface(prefix_[first], prefix_[last + 1], static_cast<float>(last - first + 1));
     if (!surface.flat) continue;
-    const float towards = (laser_x - x[i]) * surface.nx + (laser_y - y[i]) * surface.ny;
+    const float to_laser_x = laser_x - x[i];
+    const float to_laser_y = laser_y - y[i];
+    const float towards = to_laser_x * surface.nx + to_laser_y * surface.ny;
     points_.nx[i] = towards < 0 ? -surface.nx : surface.nx;
     points_.ny[i] = towards < 0 ? -surface.ny : surface.ny;
+    points_.facing[i] =
+        std::min(1.0F, std::abs(towards) / std::sqrt(to_laser_x * to_laser_x + to_laser_y * to_laser_y + 1e-12F));
     // What scatters more than the laser's noise is no flat surface: it counts less.
     points_.weight[i] = noise / (noise + 0.5F * std::max(0.0F, surface.scatter - noise));
   }

@@ -14,6 +14,7 @@ struct ScanPoints {
   std::vector<float> x, y;    ///< metres, in the robot's frame
   std::vector<float> nx, ny;  ///< unit normal, towards the laser
   std::vector<float> weight;  ///< 0..1: how much of an independent measurement the point is; 0 = no trustworthy normal
+  std::vector<float> facing;  ///< cosine of the angle between the normal and the way to the laser: 1 = met head on
   std::vector<std::uint16_t> beam;  ///< which beam it came from
 
   [[nodiscard]] std::size_t size() const { return x.size(); }

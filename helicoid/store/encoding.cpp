@@ -32,7 +32,7 @@ void encode(BlobWriter& blob, const LaserModel& laser) {
   blob.put(std::int32_t{laser.beams});
   for (const double number :
        {laser.first_bearing, laser.bearing_step, laser.max_range, laser.min_range, laser.range_sigma, laser.kappa,
-        laser.floor_position, laser.floor_heading, laser.largest_gap, laser.scan_duration}) {
+        laser.incidence_bias, laser.floor_position, laser.floor_heading, laser.largest_gap, laser.scan_duration}) {
     blob.put(number);
   }
 }
@@ -43,7 +43,7 @@ LaserModel decode_laser(BlobReader& blob) {
   laser.beams = blob.get<std::int32_t>();
   for (double* number :
        {&laser.first_bearing, &laser.bearing_step, &laser.max_range, &laser.min_range, &laser.range_sigma, &laser.kappa,
-        &laser.floor_position, &laser.floor_heading, &laser.largest_gap, &laser.scan_duration}) {
+        &laser.incidence_bias, &laser.floor_position, &laser.floor_heading, &laser.largest_gap, &laser.scan_duration}) {
     *number = blob.get<double>();
   }
   return laser;
