@@ -52,6 +52,17 @@ struct BoundedPose {
 [[nodiscard]] std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
                                                   std::uint32_t reference, const BoundOptions& options = {});
 
+/// The same from all relations among the poses about the reference, not from a tree alone: tighter where several weak
+/// relations make a strong one, as at a door. Poses are followed along the tree until `slack` times the limits, at most
+/// `joint` of them; what the tree already shows is not worked out again.
+struct JointBoundOptions {
+  double slack = 3;
+  std::size_t joint = 64;
+};
+[[nodiscard]] std::vector<BoundedPose> joint_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
+                                                   std::uint32_t reference, const BoundOptions& options = {},
+                                                   const JointBoundOptions& joint = {});
+
 /// The noise floor of a scan, (x, y, yaw).
 [[nodiscard]] Matrix3d noise_floor(double position, double heading);
 /// The covariance of T_a_b with both ends' noise floors, each counted once (design 5.3).

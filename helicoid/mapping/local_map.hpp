@@ -23,8 +23,14 @@ using LocalMap = std::vector<LocalPatch>;
 [[nodiscard]] LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId anchor,
                                       const BoundOptions& options);
 
-/// The patches that best show what a robot at this pose sees: near, and looking the same way.
-[[nodiscard]] std::vector<LocalPatch> select_views(const LocalMap& local, const Pose2& T_anchor_robot,
-                                                   std::size_t most);
+/// The patches nearest to a robot at this pose, those that look the same way first.
+[[nodiscard]] std::vector<LocalPatch> nearest_views(const LocalMap& local, const Pose2& T_anchor_robot,
+                                                    std::size_t most);
+
+/// The patches to match a scan with: the one kept last, and those that together saw most of the surfaces that the scan
+/// sees, whichever way they look. Every second one is the oldest of the good ones, so that whoever re-walks known ground
+/// holds on to what was there first instead of to what it has just added.
+[[nodiscard]] std::vector<LocalPatch> select_views(const Map& map, const LocalMap& local, const ScanPoints& points,
+                                                   const Pose2& T_anchor_robot, PatchId last_kept, std::size_t most);
 
 }  // namespace helicoid

@@ -46,7 +46,7 @@ struct Mapper::State {
 
   Step step(const Event& event, const Scan& scan);
   Step start_island(RobotState& robot, const Event& event, const Scan& scan);
-  void renew_reference(RobotState& robot, const Pose2& T_anchor_robot);
+  void renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot);
   Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const LaserModel& laser);
   void count(const Event& event, const Sighting& sighting);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched);
@@ -74,7 +74,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   const Pose2 T_anchor_last = robot.pose.T_patch_robot;
   PosePrior prior{T_anchor_last * motion.T_last_now, robot.motion.information(motion)};
   const ScanPoints& points = robot.extractors[scan.laser].extract(scan);
-  renew_reference(robot, prior.T_reference_scan);
+  renew_reference(robot, points, prior.T_reference_scan);
   const Alignment alignment = match(robot, points, prior, laser);
 
   Step result;
@@ -143,7 +143,7 @@ Step Mapper::State::start_island(RobotState& robot, const Event& event, const Sc
   return {StepStatus::first, robot.pose, id, 0, 0};
 }
 
-void Mapper::State::renew_reference(RobotState& robot, const Pose2& T_anchor_robot) {
+void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot) {
   if (!robot.stale && !has_moved(robot.T_anchor_reference_view, T_anchor_robot, options.reference_renewal,
                                  options.reference_renewal_turn)) {
     return;
@@ -157,7 +157,7 @@ void Mapper::State::renew_reference(RobotState& robot, const Pose2& T_anchor_rob
     robot.stale = false;
   }
   std::vector<ReferencePart> parts;
-  for (const LocalPatch& view : select_views(robot.local, T_anchor_robot, options.reference_views)) {
+  for (const LocalPatch& view : select_views(map, robot.local, points, T_anchor_robot, robot.last_kept, options.reference_views)) {
     parts.push_back({&map.patch(view.patch).points, view.T_anchor_patch});
   }
   robot.reference.build(parts);
@@ -190,7 +190,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   const PatchId anchor = robot.pose.patch;
   const PatchId id = make_id<PatchId>(map.patch_count());
   Patch patch = make_patch(id, event.robot, map.robot(event.robot).trajectory.size(), event.stamp, scan, laser);
-  const std::vector<LocalPatch> views = select_views(robot.local, matched.T_reference_scan, options.relation_views);
+  const std::vector<LocalPatch> views = select_views(map, robot.local, patch.points, matched.T_reference_scan, robot.last_kept, options.relation_views);
   RelateOptions relate_options;
   relate_options.kappa = laser.kappa;
   relate_options.match.incidence_bias = laser.incidence_bias;
@@ -229,7 +229,7 @@ void Mapper::State::add_relation(const Relation& relation) {
 void Mapper::State::reanchor(RobotState& robot) {
   // Eq. 14: the nearest patch of the local map that overlaps; with hysteresis, so that the anchor does not flutter.
   constexpr double kHysteresis = 0.8;
-  const std::vector<LocalPatch> nearest = select_views(robot.local, robot.pose.T_patch_robot, 1);
+  const std::vector<LocalPatch> nearest = nearest_views(robot.local, robot.pose.T_patch_robot, 1);
   const LocalPatch& best = nearest.front();
   if (best.patch == robot.pose.patch) return;
   const Pose2 T_best_robot = best.T_anchor_patch.inverse() * robot.pose.T_patch_robot;

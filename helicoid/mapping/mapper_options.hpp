@@ -17,7 +17,7 @@ struct MapperOptions {
   /// And its sign in the match: fewer of the scan's points than this lie on known surfaces.
   double new_surface_share = 0.70;
   /// The local map reaches this far and holds this many patches at most.
-  double local_radius = 12;
+  double local_radius = 7;
   std::size_t local_patches = 80;
   /// Patches fused into the reference, and patches that a new patch is related to.
   std::size_t reference_views = 6;

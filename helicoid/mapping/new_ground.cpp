@@ -27,7 +27,7 @@ bool is_far_from_all(const LocalMap& local, const Pose2& T_anchor_robot, const M
 
 double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot, const Scan& scan,
                        const LaserModel& laser) {
-  const std::vector<LocalPatch> views = select_views(local, T_anchor_robot, kMostViews);
+  const std::vector<LocalPatch> views = nearest_views(local, T_anchor_robot, kMostViews);
   std::vector<Pose2> T_patch_laser;
   const Pose2 T_anchor_laser = T_anchor_robot * scan.T_robot_laser;
   for (const LocalPatch& view : views) T_patch_laser.push_back(view.T_anchor_patch.inverse() * T_anchor_laser);
