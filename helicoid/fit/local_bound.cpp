@@ -106,33 +106,6 @@ std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<con
   return found;
 }
 
-std::vector<BoundedPose> joint_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
-                                     std::uint32_t reference, const BoundOptions& options,
-                                     const JointBoundOptions& joint) {
-  BoundOptions wide = options;
-  wide.position *= joint.slack;
-  wide.heading *= joint.slack;
-  const std::vector<BoundedPose> candidates = tree_bound(graph, T_plane, reference, wide);
-  const auto is_confident = [&options](const BoundedPose& p) {
-    const ConfidenceInterval interval = confidence_interval(p.relative.covariance);
-    return interval.position < options.position && interval.heading < options.heading;
-  };
-  std::vector<BoundedPose> found;
-  if (std::all_of(candidates.begin(), candidates.end(), is_confident)) return candidates;
-  std::vector<std::uint32_t> poses;
-  for (std::size_t i = 0; i < std::min(joint.joint, candidates.size()); ++i) poses.push_back(candidates[i].pose);
-  const std::vector<UncertainPose2> relative = subgraph_covariance(graph, T_plane, poses);
-  const Matrix3d floor = noise_floor(options.floor_position, options.floor_heading);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    BoundedPose pose = candidates[i];
-    if (i > 0 && i < poses.size() && !is_confident(pose)) {
-      pose.relative.covariance = with_noise_floor(relative[i], floor, floor);
-    }
-    if (is_confident(pose)) found.push_back(pose);
-  }
-  return found;
-}
-
 std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph, std::span<const Pose2> T_plane,
                                                 std::span<const std::uint32_t> poses) {
   std::vector<std::int32_t> place(graph.size(), -1);

@@ -32,12 +32,12 @@ class InformationGraph {
 
 struct BoundOptions {
   double position = 0.10;  ///< poses are followed while their interval is below both limits; metres
-  double heading = 0.035;  ///< radians
+  double heading = 0.05;  ///< radians
   double radius = 15;      ///< and while they lie this near in the plane; metres
   std::size_t most = 400;  ///< poses at most
   /// The noise floor of a scan, once for either end (design 5.3).
-  double floor_position = 0.003;
-  double floor_heading = 0.0017;
+  double floor_position = 0.010;
+  double floor_heading = 0.0044;
 };
 
 /// A pose within the limits and an upper bound of its covariance relative to the reference, in the reference's frame.
@@ -51,17 +51,6 @@ struct BoundedPose {
 /// out. A pose that no path reaches within the limits is "unknown" and absent.
 [[nodiscard]] std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
                                                   std::uint32_t reference, const BoundOptions& options = {});
-
-/// The same from all relations among the poses about the reference, not from a tree alone: tighter where several weak
-/// relations make a strong one, as at a door. Poses are followed along the tree until `slack` times the limits, at most
-/// `joint` of them; what the tree already shows is not worked out again.
-struct JointBoundOptions {
-  double slack = 3;
-  std::size_t joint = 64;
-};
-[[nodiscard]] std::vector<BoundedPose> joint_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
-                                                   std::uint32_t reference, const BoundOptions& options = {},
-                                                   const JointBoundOptions& joint = {});
 
 /// The noise floor of a scan, (x, y, yaw).
 [[nodiscard]] Matrix3d noise_floor(double position, double heading);

@@ -14,7 +14,7 @@ using Neighbours = std::vector<std::vector<PatchId>>;
 
 struct NeighbourOptions {
   double position = 0.10;  ///< eps of eq. 12, metres
-  double heading = 0.035;  ///< radians
+  double heading = 0.05;  ///< radians
 };
 [[nodiscard]] Neighbours find_neighbours(const Map& map, const NeighbourOptions& options = {});
 

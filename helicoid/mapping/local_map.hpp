@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "helicoid/align/reference.hpp"
-#include "helicoid/fit/local_bound.hpp"
+#include "helicoid/fit/joint_bound.hpp"
 #include "helicoid/manifold/map.hpp"
 
 namespace helicoid {

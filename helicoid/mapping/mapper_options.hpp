@@ -8,7 +8,7 @@ namespace helicoid {
 struct MapperOptions {
   /// A patch belongs to the reference of a match if it is known to this, relative to the robot's patch (eq. 12's eps).
   double reference_position = 0.10;
-  double reference_heading = 0.035;
+  double reference_heading = 0.05;
   /// The first trigger of a new patch: this far from every patch of the local map.
   double patch_spacing = 1.0;
   double patch_turn = 0.70;

@@ -22,12 +22,13 @@ double meet_disc(const Vector2d& origin, const Vector2d& direction, const Disc& 
 struct Surface {
   double distance = 0;
   double sine = 1;
+  int segment = -1;  ///< of the walls; -1: a disc, or nothing
 };
 
 Surface look(const RayCaster& walls, std::span<const Disc> discs, const Vector2d& origin, double bearing) {
   const Vector2d direction(std::cos(bearing), std::sin(bearing));
   const RayCaster::Hit hit = walls.cast(origin, direction, kReach);
-  Surface surface{hit.distance, 1};
+  Surface surface{hit.distance, 1, hit.segment};
   if (hit.segment >= 0) {
     const Segment& s = walls.segments()[static_cast<std::size_t>(hit.segment)];
     const Vector2d along = (s.to - s.from).normalized();
@@ -35,7 +36,7 @@ Surface look(const RayCaster& walls, std::span<const Disc> discs, const Vector2d
   }
   for (const Disc& disc : discs) {
     const double distance = meet_disc(origin, direction, disc);
-    if (distance < surface.distance) surface = {distance, 1};
+    if (distance < surface.distance) surface = {distance, 1, -1};
   }
   return surface;
 }
@@ -53,14 +54,16 @@ LaserModel simulated_lms200() {
 }
 
 std::vector<float> simulate_ranges(const RayCaster& walls, std::span<const Disc> discs, const LaserModel& laser,
-                                   const Pose2& T_world_laser, const LaserNoise& noise, const LaserBias& bias,
-                                   Random& random) {
+                                   const Pose2& T_world_laser, const Vector3d& twist, const LaserNoise& noise,
+                                   const LaserBias& bias, Random& random) {
   std::vector<float> ranges;
   ranges.reserve(static_cast<std::size_t>(laser.beams));
-  const Vector2d origin = T_world_laser.translation();
   double previous = 0;
   for (int beam = 0; beam < laser.beams; ++beam) {
-    const double bearing = T_world_laser.yaw + (1 + bias.bearing_scale) * laser.bearing(beam);
+    const double when = noise.sweep * (static_cast<double>(beam) / laser.beams - 0.5);
+    const Pose2 T_world_now = when != 0 ? T_world_laser * exponential(when * twist) : T_world_laser;
+    const Vector2d origin = T_world_now.translation();
+    const double bearing = T_world_now.yaw + (1 + bias.bearing_scale) * laser.bearing(beam);
     const Surface surface = look(walls, discs, origin, bearing);
     double range = surface.distance;
     // A beam has a width: where the surface jumps, its two edges may see different things and the range is a mixture.
@@ -79,6 +82,9 @@ std::vector<float> simulate_ranges(const RayCaster& walls, std::span<const Disc>
       continue;
     }
     range += bias.range;
+    if (surface.segment >= 0 && !bias.by_surface.empty()) {
+      range += bias.by_surface[static_cast<std::size_t>(surface.segment)];
+    }
     if (noise.range_sigma > 0) range += noise.range_sigma * random.normal();
     if (noise.quantum > 0) range = noise.quantum * std::round(range / noise.quantum);
     ranges.push_back(static_cast<float>(std::max(range, 0.01)));

@@ -13,7 +13,11 @@ struct LaserNoise {
   // What no reading of one sensor averages out: drawn once per robot.
   double range_bias_sigma = 0.008;     ///< metres
   double bearing_scale_sigma = 0.001;  ///< of the beams' spacing, relative
-  [[nodiscard]] static LaserNoise none() { return {0, 0, 0, 0, 0, 0, 0, 0}; }
+  double material_sigma = 0.020;       ///< of the range, once per surface: bright and dark walls; metres
+  // A scan is not taken at an instant, nor quite at the one that its stamp and odometry name.
+  double sweep = 0.0133;        ///< first to last beam, about the scan's pose; seconds
+  double timing_sigma = 0.020;  ///< seconds
+  [[nodiscard]] static LaserNoise none() { return {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; }
 };
 
 struct OdometryNoise {

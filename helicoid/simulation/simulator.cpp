@@ -34,6 +34,9 @@ Result<Simulator> Simulator::make(const World& world, const SimulationOptions& o
 
 Simulator::Simulator(const World& world, const SimulationOptions& options)
     : options_(options), walls_(world.walls), routes_(world.routes), laser_(simulated_lms200()), random_(options.seed) {
+  std::vector<double> materials(world.walls.size());
+  Random of_materials = random_.split();
+  for (double& bias : materials) bias = options_.laser_noise.material_sigma * of_materials.normal();
   for (int i = 0; i < options_.robots; ++i) {
     const auto index = static_cast<std::size_t>(i);
     const Route& route = world.routes[index % world.routes.size()];
@@ -41,13 +44,14 @@ Simulator::Simulator(const World& world, const SimulationOptions& options)
     Robot robot{RouteDriver(route, static_cast<double>(i) / options_.robots, backward, options_.limits),
                 random_.split(),
                 {},
+                Vector3d::Zero(),
                 1,
                 1,
                 0,
                 {},
                 false};
     robot.laser_bias = {options_.laser_noise.range_bias_sigma * robot.random.normal(),
-                        options_.laser_noise.bearing_scale_sigma * robot.random.normal()};
+                        options_.laser_noise.bearing_scale_sigma * robot.random.normal(), materials};
     robot.distance_scale = 1 + options_.odometry_noise.distance_scale_sigma * robot.random.normal();
     robot.turn_scale = 1 + options_.odometry_noise.turn_scale_sigma * robot.random.normal();
     robot.drift = options_.odometry_noise.drift_bias_sigma * robot.random.normal();
@@ -181,6 +185,7 @@ void Simulator::move_robot(std::size_t index) {
   robot.driver.step(kTick, way_aside(index));
   const Pose2 truth = before.inverse() * robot.driver.T_world_robot();
   const OdometryNoise& noise = options_.odometry_noise;
+  robot.twist = truth.vector() / kTick;
   const double distance = truth.distance();
   const double turn = std::abs(truth.yaw);
   Pose2 measured;
@@ -203,8 +208,13 @@ void Simulator::move_robot(std::size_t index) {
 void Simulator::scan(std::size_t index) {
   Robot& robot = robots_[index];
   Scan scan;
-  scan.ranges = simulate_ranges(walls_, discs_around(index), laser_, robot.driver.T_world_robot(), options_.laser_noise,
-                                robot.laser_bias, robot.random);
+  const LaserNoise& noise = options_.laser_noise;
+  Pose2 T_world_laser = robot.driver.T_world_robot();
+  if (noise.timing_sigma > 0) {
+    T_world_laser = T_world_laser * exponential(noise.timing_sigma * robot.random.normal() * robot.twist);
+  }
+  scan.ranges = simulate_ranges(walls_, discs_around(index), laser_, T_world_laser, robot.twist, noise, robot.laser_bias,
+                                robot.random);
   scan.T_odom_robot = robot.T_odom_robot;
   // A millisecond after the odometry, and robot by robot: stamps name one scan each.
   const double stamp = kFirstStamp + kTick * static_cast<double>(ticks_) + 1e-3 * static_cast<double>(index + 1);

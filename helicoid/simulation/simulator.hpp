@@ -84,6 +84,7 @@ struct Simulator::Robot {
   RouteDriver driver;
   Random random;
   LaserBias laser_bias;
+  Vector3d twist = Vector3d::Zero();  ///< of the robot in its own frame, metres and radians a second
   double distance_scale = 1, turn_scale = 1, drift = 0;
   Pose2 T_odom_robot;
   int patience = 0;  ///< ticks that another has been near; below 0: that it will not get out of the way
