@@ -3,7 +3,8 @@
 namespace helicoid {
 
 const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> all{crispness_experiment(), laps_experiment(), outliers_experiment()};
+  static const std::vector<Experiment> all{calibration_experiment(), crispness_experiment(), laps_experiment(),
+                                           outliers_experiment()};
   return all;
 }
 

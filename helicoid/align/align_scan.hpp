@@ -8,13 +8,13 @@
 namespace helicoid {
 
 struct AlignOptions {
-  double first_gate = 0.25;    ///< pairs farther apart are not considered in the first round, metres
-  double last_gate = 0.12;     ///< the same in the last rounds
-  double robust_scale = 0.03;  ///< residuals beyond it lose their weight (Geman-McClure), metres
-  double range_sigma = 0.012;  ///< of a residual, reference included: the unit of the information, metres
+  double first_gate = 0.25;      ///< pairs farther apart are not considered in the first round, metres
+  double last_gate = 0.12;       ///< the same in the last rounds
+  double robust_scale = 0.03;    ///< residuals beyond it lose their weight (Geman-McClure), metres
+  double range_sigma = 0.012;    ///< of a residual, reference included: the unit of the information, metres
   double incidence_bias = 0.03;  ///< pairs seen at different incidence disagree by this much a unit of cosine, metres
-  double kappa = 8;            ///< beams that carry the information of one; divides the information against the prior
-  double prior_freedom = 4;    ///< degrees of freedom of the prior's Student t: small = heavy tails
+  double kappa = 8;              ///< beams that carry the information of one; divides the information against the prior
+  double prior_freedom = 4;      ///< degrees of freedom of the prior's Student t: small = heavy tails
   int max_iterations = 20;
   double min_inlier_share = 0.35;  ///< of the points with a normal; fewer = failure
   int min_points = 12;

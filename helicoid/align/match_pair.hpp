@@ -16,10 +16,10 @@ struct PairReference {
 };
 
 struct MatchPairOptions {
-  double gate = 0.15;          ///< metres
-  double robust_scale = 0.03;  ///< metres
+  double gate = 0.15;            ///< metres
+  double robust_scale = 0.03;    ///< metres
   double incidence_bias = 0.03;  ///< points seen at different incidence disagree by this much a unit of cosine, metres
-  double range_sigma = 0.015;  ///< of one residual: both scans' noise, metres
+  double range_sigma = 0.015;    ///< of one residual: both scans' noise, metres
 };
 
 struct PairMatch {

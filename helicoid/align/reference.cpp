@@ -89,7 +89,8 @@ void Reference::fuse() {
       next_.push_back(head_[cell]);
       head_[cell] = static_cast<std::int32_t>(fused_.size());
       cell_of_.push_back(static_cast<std::uint32_t>(cell));
-      fused_.push_back({p.weight * p.x, p.weight * p.y, p.weight * p.nx, p.weight * p.ny, p.weight, p.weight * p.facing});
+      fused_.push_back(
+          {p.weight * p.x, p.weight * p.y, p.weight * p.nx, p.weight * p.ny, p.weight, p.weight * p.facing});
     }
   }
 }
@@ -105,8 +106,8 @@ void Reference::sort_by_cell() {
     const SurfaceElement& e = fused_[i];
     const float scale = 1 / e.weight;
     const float length = std::sqrt(e.nx * e.nx + e.ny * e.ny);
-    elements_[start_[cell_of_[i]] + head_[cell_of_[i]]++] = {e.x * scale, e.y * scale, e.nx / length, e.ny / length,
-                                                             e.weight, e.facing * scale};
+    elements_[start_[cell_of_[i]] + head_[cell_of_[i]]++] = {e.x * scale,   e.y * scale, e.nx / length,
+                                                             e.ny / length, e.weight,    e.facing * scale};
   }
 }
 

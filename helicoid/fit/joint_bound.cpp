@@ -57,7 +57,9 @@ Eigen::MatrixXd joint_information(const InformationGraph& graph, std::span<const
       const std::int32_t j = place[edge.to];
       // d T_b_other / d T_ref_b; each pair is seen from both of its ends, and each end adds its own block.
       if (j == kAbsent) continue;
-      const Pose2 T_b_other = T_ref_b.inverse() * (j == kReference ? Pose2{} : candidates[tied[static_cast<std::size_t>(j)]].relative.T_a_b);
+      const Pose2 T_b_other =
+          T_ref_b.inverse() *
+          (j == kReference ? Pose2{} : candidates[tied[static_cast<std::size_t>(j)]].relative.T_a_b);
       Matrix3d by_other = Matrix3d::Identity();
       by_other.topLeftCorner<2, 2>() = T_ref_b.rotation().transpose();
       Matrix3d by_self = -by_other;
@@ -89,8 +91,8 @@ std::vector<BoundedPose> joint_bound(const InformationGraph& graph, std::span<co
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(H);
     const Eigen::Index size = 3 * (tied.end() - doubtful);
     if (factor.info() == Eigen::Success) {
-      const Eigen::MatrixXd inverse = H.bottomRightCorner(size, size).triangularView<Eigen::Lower>().solve(
-          Eigen::MatrixXd::Identity(size, size));
+      const Eigen::MatrixXd inverse =
+          H.bottomRightCorner(size, size).triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(size, size));
       const Matrix3d floor = noise_floor(options.floor_position, options.floor_heading);
       for (auto i = doubtful; i != tied.end(); ++i) {
         UncertainPose2& relative = candidates[*i].relative;

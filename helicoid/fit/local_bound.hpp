@@ -31,13 +31,13 @@ class InformationGraph {
 };
 
 struct BoundOptions {
-  double position = 0.10;  ///< poses are followed while their interval is below both limits; metres
-  double heading = 0.05;  ///< radians
+  double position = 0.15;  ///< poses are followed while their interval is below both limits; metres
+  double heading = 0.06;   ///< radians
   double radius = 15;      ///< and while they lie this near in the plane; metres
   std::size_t most = 400;  ///< poses at most
   /// The noise floor of a scan, once for either end (design 5.3).
   double floor_position = 0.010;
-  double floor_heading = 0.0044;
+  double floor_heading = 0.0052;
 };
 
 /// A pose within the limits and an upper bound of its covariance relative to the reference, in the reference's frame.

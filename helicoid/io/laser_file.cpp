@@ -18,9 +18,9 @@ using Key = std::pair<std::string_view, double LaserModel::*>;
 constexpr Key kKeys[] = {
     {"max_range", &LaserModel::max_range},           {"min_range", &LaserModel::min_range},
     {"range_sigma", &LaserModel::range_sigma},       {"kappa", &LaserModel::kappa},
-    {"incidence_bias", &LaserModel::incidence_bias},
-    {"floor_position", &LaserModel::floor_position}, {"floor_heading", &LaserModel::floor_heading},
-    {"largest_gap", &LaserModel::largest_gap},       {"scan_duration", &LaserModel::scan_duration}};
+    {"incidence_bias", &LaserModel::incidence_bias}, {"floor_position", &LaserModel::floor_position},
+    {"floor_heading", &LaserModel::floor_heading},   {"largest_gap", &LaserModel::largest_gap},
+    {"scan_duration", &LaserModel::scan_duration}};
 
 std::string key_names() {
   std::string names;

@@ -13,8 +13,8 @@ namespace helicoid {
 [[nodiscard]] Result<LaserModel> load_laser(const std::string& name_or_file, const LaserModel& recognised);
 
 /// Lines of `key: value`, `#` comments; metres, radians, seconds, all above 0. Keys: max_range, min_range, range_sigma,
-/// kappa, incidence_bias, floor_position, floor_heading, largest_gap, scan_duration; what is not named stays as recognised. Errors: a
-/// line that is none of these; `name` is what messages call the file.
+/// kappa, incidence_bias, floor_position, floor_heading, largest_gap, scan_duration; what is not named stays as
+/// recognised. Errors: a line that is none of these; `name` is what messages call the file.
 [[nodiscard]] Result<LaserModel> parse_laser(const std::string& text, const std::string& name,
                                              const LaserModel& recognised);
 

@@ -13,8 +13,8 @@ namespace helicoid {
 using Neighbours = std::vector<std::vector<PatchId>>;
 
 struct NeighbourOptions {
-  double position = 0.10;  ///< eps of eq. 12, metres
-  double heading = 0.05;  ///< radians
+  double position = 0.15;  ///< eps of eq. 12, metres
+  double heading = 0.06;   ///< radians
 };
 [[nodiscard]] Neighbours find_neighbours(const Map& map, const NeighbourOptions& options = {});
 

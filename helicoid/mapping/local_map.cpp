@@ -38,8 +38,8 @@ std::vector<Surface> sample_surfaces(const ScanPoints& points, const Pose2& T_an
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kSamples);
   for (std::size_t i = stride / 2; i < points.size() && surfaces.size() < kSamples; i += stride) {
     if (points.weight[i] <= 0) continue;
-    surfaces.push_back({T_anchor_robot * Vector2d(points.x[i], points.y[i]),
-                        rotation * Vector2d(points.nx[i], points.ny[i])});
+    surfaces.push_back(
+        {T_anchor_robot * Vector2d(points.x[i], points.y[i]), rotation * Vector2d(points.nx[i], points.ny[i])});
   }
   return surfaces;
 }
@@ -139,7 +139,8 @@ std::vector<LocalPatch> select_views(const Map& map, const LocalMap& local, cons
     for (std::size_t i = 0; i < local.size(); ++i) {
       if (choice.is_taken(i) || choice.gain(i) < enough) continue;
       const auto order = [&](std::size_t k) {
-        return oldest ? static_cast<double>(local[k].patch.value) : view_distance(local[k].T_anchor_patch, T_anchor_robot);
+        return oldest ? static_cast<double>(local[k].patch.value)
+                      : view_distance(local[k].T_anchor_patch, T_anchor_robot);
       };
       if (best == local.size() || order(i) < order(best)) best = i;
     }

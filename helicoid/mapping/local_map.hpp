@@ -28,8 +28,8 @@ using LocalMap = std::vector<LocalPatch>;
                                                     std::size_t most);
 
 /// The patches to match a scan with: the one kept last, and those that together saw most of the surfaces that the scan
-/// sees, whichever way they look. Every second one is the oldest of the good ones, so that whoever re-walks known ground
-/// holds on to what was there first instead of to what it has just added.
+/// sees, whichever way they look. Every second one is the oldest of the good ones, so that whoever re-walks known
+/// ground holds on to what was there first instead of to what it has just added.
 [[nodiscard]] std::vector<LocalPatch> select_views(const Map& map, const LocalMap& local, const ScanPoints& points,
                                                    const Pose2& T_anchor_robot, PatchId last_kept, std::size_t most);
 

@@ -99,8 +99,10 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   // A scan that saw next to nothing makes no patch: nothing could be matched to it.
   const bool sees = points.size() >= static_cast<std::size_t>(AlignOptions{}.min_points);
   bool keep_it = sees && is_far_from_all(robot.local, T_anchor_robot, options);
-  if (alignment.usable() && alignment.inlier_share < options.new_surface_share) keep_it = true;
-  if (!keep_it && alignment.usable() && has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) {
+  const bool is_apart =
+      alignment.usable() && is_far_from_all(robot.local, T_anchor_robot, options, options.apart_share);
+  if (is_apart && alignment.inlier_share < options.new_surface_share) keep_it = true;
+  if (!keep_it && is_apart && has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) {
     robot.T_anchor_coverage_view = T_anchor_robot;
     keep_it = uncovered_share(map, robot.local, T_anchor_robot, scan, laser) > options.new_ground_share;
   }
@@ -157,7 +159,8 @@ void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points,
     robot.stale = false;
   }
   std::vector<ReferencePart> parts;
-  for (const LocalPatch& view : select_views(map, robot.local, points, T_anchor_robot, robot.last_kept, options.reference_views)) {
+  for (const LocalPatch& view :
+       select_views(map, robot.local, points, T_anchor_robot, robot.last_kept, options.reference_views)) {
     parts.push_back({&map.patch(view.patch).points, view.T_anchor_patch});
   }
   robot.reference.build(parts);
@@ -190,7 +193,8 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   const PatchId anchor = robot.pose.patch;
   const PatchId id = make_id<PatchId>(map.patch_count());
   Patch patch = make_patch(id, event.robot, map.robot(event.robot).trajectory.size(), event.stamp, scan, laser);
-  const std::vector<LocalPatch> views = select_views(map, robot.local, patch.points, matched.T_reference_scan, robot.last_kept, options.relation_views);
+  const std::vector<LocalPatch> views =
+      select_views(map, robot.local, patch.points, matched.T_reference_scan, robot.last_kept, options.relation_views);
   RelateOptions relate_options;
   relate_options.kappa = laser.kappa;
   relate_options.match.incidence_bias = laser.incidence_bias;

@@ -7,11 +7,13 @@ namespace helicoid {
 
 struct MapperOptions {
   /// A patch belongs to the reference of a match if it is known to this, relative to the robot's patch (eq. 12's eps).
-  double reference_position = 0.10;
-  double reference_heading = 0.05;
+  double reference_position = 0.15;
+  double reference_heading = 0.06;
   /// The first trigger of a new patch: this far from every patch of the local map.
   double patch_spacing = 1.0;
   double patch_turn = 0.70;
+  /// For the other triggers it need only be this share of it: a place that has a patch needs no second.
+  double apart_share = 0.5;
   /// The second: this share of the scan's free space is not covered by the local map.
   double new_ground_share = 0.25;
   /// And its sign in the match: fewer of the scan's points than this lie on known surfaces.

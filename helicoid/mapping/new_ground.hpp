@@ -6,8 +6,9 @@
 
 namespace helicoid {
 
-/// The first trigger: no patch of the local map is near and looks the same way.
-[[nodiscard]] bool is_far_from_all(const LocalMap& local, const Pose2& T_anchor_robot, const MapperOptions& options);
+/// The first trigger: no patch of the local map is near and looks the same way. `share` of the spacing counts as far.
+[[nodiscard]] bool is_far_from_all(const LocalMap& local, const Pose2& T_anchor_robot, const MapperOptions& options,
+                                   double share = 1);
 
 /// The second: the share of the scan's free space that no patch of the local map covers, 0..1, by sampling.
 [[nodiscard]] double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot,

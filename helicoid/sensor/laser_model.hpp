@@ -16,12 +16,12 @@ struct LaserModel {
   double min_range = 0.05;    ///< a range below it is no measurement; metres
   double range_sigma = 0.01;  ///< standard deviation of a range, rounding included; metres
   /// How many beams carry the information of one independent beam: a pair's information is M / kappa (design 5.3).
-  double kappa = 8;
+  double kappa = 12;
   /// Systematic error of a range that changes with how a surface is met (footprint, reflectance): metres between a beam
   /// that meets it head on and one that grazes it.
   double incidence_bias = 0.03;
   double floor_position = 0.010;  ///< noise that all beams of a scan share, once per scan: metres
-  double floor_heading = 0.0044;  ///< the same, of the heading: radians
+  double floor_heading = 0.0052;  ///< the same, of the heading: radians
   /// Beams farther apart than this do not vouch for the space between them; metres.
   double largest_gap = 0.25;
   /// From the first beam to the last, seconds; 0: the sweep is taken as one moment (see deskew.hpp).

@@ -23,15 +23,16 @@ struct Disc {
 
 /// What is wrong with one laser for as long as it lives.
 struct LaserBias {
-  double range = 0;          ///< metres
-  double bearing_scale = 0;  ///< relative
+  double range = 0;                ///< metres
+  double bearing_scale = 0;        ///< relative
   std::vector<double> by_surface;  ///< added to ranges to the walls' segments, in their order; empty: nothing; metres
 };
 
-/// The ranges of one sweep while the laser passes T_world_laser with this twist (metres and radians a second, in its own
-/// frame).
+/// The ranges of one sweep while the laser passes T_world_laser with this twist (metres and radians a second, in its
+/// own frame).
 [[nodiscard]] std::vector<float> simulate_ranges(const RayCaster& walls, std::span<const Disc> discs,
-                                                 const LaserModel& laser, const Pose2& T_world_laser, const Vector3d& twist,
-                                                 const LaserNoise& noise, const LaserBias& bias, Random& random);
+                                                 const LaserModel& laser, const Pose2& T_world_laser,
+                                                 const Vector3d& twist, const LaserNoise& noise, const LaserBias& bias,
+                                                 Random& random);
 
 }  // namespace helicoid

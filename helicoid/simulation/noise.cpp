@@ -10,6 +10,8 @@ LaserNoise scaled(LaserNoise noise, double factor) {
   noise.mixed = std::min(1.0, factor * noise.mixed);
   noise.range_bias_sigma *= factor;
   noise.bearing_scale_sigma *= factor;
+  noise.material_sigma *= factor;
+  noise.timing_sigma *= factor;
   return factor > 0 ? noise : LaserNoise::none();
 }
 

@@ -16,7 +16,7 @@ struct LaserNoise {
   double material_sigma = 0.020;       ///< of the range, once per surface: bright and dark walls; metres
   // A scan is not taken at an instant, nor quite at the one that its stamp and odometry name.
   double sweep = 0.0133;        ///< first to last beam, about the scan's pose; seconds
-  double timing_sigma = 0.020;  ///< seconds
+  double timing_sigma = 0.015;  ///< seconds
   [[nodiscard]] static LaserNoise none() { return {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; }
 };
 

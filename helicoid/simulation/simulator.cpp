@@ -213,8 +213,8 @@ void Simulator::scan(std::size_t index) {
   if (noise.timing_sigma > 0) {
     T_world_laser = T_world_laser * exponential(noise.timing_sigma * robot.random.normal() * robot.twist);
   }
-  scan.ranges = simulate_ranges(walls_, discs_around(index), laser_, T_world_laser, robot.twist, noise, robot.laser_bias,
-                                robot.random);
+  scan.ranges = simulate_ranges(walls_, discs_around(index), laser_, T_world_laser, robot.twist, noise,
+                                robot.laser_bias, robot.random);
   scan.T_odom_robot = robot.T_odom_robot;
   // A millisecond after the odometry, and robot by robot: stamps name one scan each.
   const double stamp = kFirstStamp + kTick * static_cast<double>(ticks_) + 1e-3 * static_cast<double>(index + 1);
