@@ -10,8 +10,6 @@
 #include "helicoid/fit/fit_graph.hpp"
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/manifold/map_editor.hpp"
-#include "helicoid/mapping/local_map.hpp"
-#include "helicoid/mapping/motion_prior.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 #include "helicoid/mapping/relate.hpp"
 #include "helicoid/mapping/robot_state.hpp"
@@ -48,6 +46,8 @@ struct Mapper::State {
   Step start_island(RobotState& robot, const Event& event, const Scan& scan);
   void renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot);
   Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const LaserModel& laser);
+  bool is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan, std::size_t points,
+                        const LaserModel& laser) const;
   void count(const Event& event, const Sighting& sighting);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched);
   void relate_to_last(RobotState& robot, PatchId id);
@@ -96,16 +96,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   tracked.covariance = information.inverse();
 
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
-  // A scan that saw next to nothing makes no patch: nothing could be matched to it.
-  const bool sees = points.size() >= static_cast<std::size_t>(AlignOptions{}.min_points);
-  bool keep_it = sees && is_far_from_all(robot.local, T_anchor_robot, options);
-  const bool is_apart =
-      alignment.usable() && is_far_from_all(robot.local, T_anchor_robot, options, options.apart_share);
-  if (is_apart && alignment.inlier_share < options.new_surface_share) keep_it = true;
-  if (!keep_it && is_apart && has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) {
-    robot.T_anchor_coverage_view = T_anchor_robot;
-    keep_it = uncovered_share(map, robot.local, T_anchor_robot, scan, laser) > options.new_ground_share;
-  }
+  const bool keep_it = is_worth_keeping(robot, alignment, scan, points.size(), laser);
   if (keep_it) {
     result.new_patch = keep(robot, event, scan, {T_anchor_robot, information});
     tracked.covariance.setZero();
@@ -117,6 +108,19 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   result.pose = robot.pose;
   if (!keep_it) reanchor(robot);
   return result;
+}
+
+bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan,
+                                     std::size_t points, const LaserModel& laser) const {
+  const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
+  // A scan that saw next to nothing makes no patch: nothing could be matched to it.
+  const bool sees = points >= static_cast<std::size_t>(AlignOptions{}.min_points);
+  if (sees && is_far_from_all(robot.local, T_anchor_robot, options)) return true;
+  if (!alignment.usable() || !is_far_from_all(robot.local, T_anchor_robot, options, options.apart_share)) return false;
+  if (alignment.inlier_share < options.new_surface_share) return true;
+  if (!has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) return false;
+  robot.T_anchor_coverage_view = T_anchor_robot;
+  return uncovered_share(map, robot.local, T_anchor_robot, scan, laser) > options.new_ground_share;
 }
 
 void Mapper::State::count(const Event& event, const Sighting& sighting) {
