@@ -70,7 +70,6 @@ void add_contents(Json& json, const Map& map, const MapReport& report) {
   json["sheets"] = sheets;
   json["island_count"] = report.islands.size();
   json["islands"] = islands;
-  json["closures"] = {{"open", 0}, {"accepted", 0}, {"rejected", 0}, {"distinct", 0}};
 }
 
 }  // namespace
@@ -90,6 +89,9 @@ Json summarise(const MapRun& run, const MapReport& report, const Json& options) 
   }
   json["robots"] = robots;
   add_contents(json, map, report);
+  Json closures = {{"open", 0}, {"accepted", 0}, {"rejected", 0}, {"distinct", 0}};
+  for (const Hypothesis& h : run.mapper.ledger()) closures[name_of(h.state)] = closures[name_of(h.state)].get<int>() + 1;
+  json["closures"] = closures;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   json["cpu_s"] = milli(seconds(usage.ru_utime) + seconds(usage.ru_stime));

@@ -31,6 +31,7 @@ class Reference {
   void build(std::span<const ReferencePart> parts);
   [[nodiscard]] std::size_t size() const { return elements_.size(); }
   [[nodiscard]] bool empty() const { return elements_.empty(); }
+  [[nodiscard]] std::span<const SurfaceElement> elements() const { return elements_; }
 
   /// The nearest element within `gate` metres whose normal agrees (cosine above kSameSide), or nullptr.
   [[nodiscard]] const SurfaceElement* nearest(float x, float y, float nx, float ny, float gate) const;

@@ -10,6 +10,8 @@
 #include "helicoid/fit/fit_graph.hpp"
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/manifold/map_editor.hpp"
+#include "helicoid/mapping/induce.hpp"
+#include "helicoid/mapping/loop_closer.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 #include "helicoid/mapping/relate.hpp"
 #include "helicoid/mapping/robot_state.hpp"
@@ -31,16 +33,17 @@ bool has_moved(const Pose2& from, const Pose2& to, double distance, double angle
 }  // namespace
 
 struct Mapper::State {
-  explicit State(const MapperOptions& o) : options(o), editor(map) {}
+  explicit State(const MapperOptions& o) : options(o), editor(map), closer(o) {}
 
   MapperOptions options;
   Map map;
   MapEditor editor;
   InformationGraph graph;
+  LoopCloser closer;
   std::vector<RobotState> robots;
   MapperCounts counts;
   MapperTimes times;
-  std::size_t patches_at_last_fit = 0;
+  std::size_t relations_at_last_fit = 0;
 
   Step step(const Event& event, const Scan& scan);
   Step start_island(RobotState& robot, const Event& event, const Scan& scan);
@@ -51,6 +54,7 @@ struct Mapper::State {
   void count(const Event& event, const Sighting& sighting);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched);
   void relate_to_last(RobotState& robot, PatchId id);
+  void close_loops(PatchId id, const LocalMap& known);
   void add_relation(const Relation& relation);
   void reanchor(RobotState& robot);
   void fit_islands();
@@ -212,6 +216,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
     add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
   }
   relate_to_last(robot, id);
+  if (options.closures) close_loops(id, robot.local);
   // Eq. 15.
   robot.pose = {id, Pose2{}};
   robot.last_kept = id;
@@ -219,6 +224,23 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   robot.path = robot.turn = 0;
   robot.stale = true;
   return id;
+}
+
+void Mapper::State::close_loops(PatchId id, const LocalMap& known) {
+  const double began = thread_seconds();
+  constexpr int kRounds = 10;
+  MapInProgress progress{map, editor, graph};
+  std::vector<PatchId> touched;
+  for (const std::size_t entry : closer.observe(map, graph, id, known)) {
+    const std::vector<PatchId> tied = tie(progress, closer.ledger()[entry], options);
+    touched.insert(touched.end(), tied.begin(), tied.end());
+  }
+  for (int round = 0; round < kRounds && !touched.empty(); ++round) {
+    fit_islands();
+    graph = information_graph(map);
+    touched = induce(progress, touched, closer.along(), options);
+  }
+  times.close_s += thread_seconds() - began;
 }
 
 void Mapper::State::relate_to_last(RobotState& robot, PatchId id) {
@@ -250,9 +272,8 @@ void Mapper::State::reanchor(RobotState& robot) {
 }
 
 void Mapper::State::fit_islands() {
-  if (patches_at_last_fit == map.patch_count()) return;
-  const double began = thread_seconds();
-  patches_at_last_fit = map.patch_count();
+  if (relations_at_last_fit == map.relations().size()) return;
+  relations_at_last_fit = map.relations().size();
   for (const Island& island : map.islands()) {
     std::vector<Pose2> start;
     for (const PatchId id : island.patches) start.push_back(map.T_plane_patch(id));
@@ -261,7 +282,6 @@ void Mapper::State::fit_islands() {
     for (std::size_t i = 0; i < start.size(); ++i) editor.set_pose(island.patches[i], fit.poses[i]);
   }
   for (RobotState& robot : robots) robot.stale = true;
-  times.fit_s += thread_seconds() - began;
 }
 
 Mapper::Mapper(const MapperOptions& options) : state_(std::make_unique<State>(options)) {}
@@ -283,7 +303,9 @@ Step Mapper::process(const Event& event) {
 }
 
 void Mapper::finish() {
+  const double began = thread_seconds();
   state_->fit_islands();
+  state_->times.fit_s += thread_seconds() - began;
 }
 
 const Map& Mapper::map() const {
@@ -294,6 +316,9 @@ const MapperCounts& Mapper::counts() const {
 }
 const MapperTimes& Mapper::times() const {
   return state_->times;
+}
+const Ledger& Mapper::ledger() const {
+  return state_->closer.ledger();
 }
 
 }  // namespace helicoid

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "helicoid/manifold/map.hpp"
+#include "helicoid/mapping/ledger.hpp"
 #include "helicoid/mapping/mapper_options.hpp"
 #include "helicoid/sensor/event.hpp"
 
@@ -46,6 +47,7 @@ struct MapperCounts {
 struct MapperTimes {
   double match_s = 0;
   double fit_s = 0;
+  double close_s = 0;  ///< looking for loops and closing them, fits included
 };
 
 class Mapper {
@@ -65,6 +67,8 @@ class Mapper {
   [[nodiscard]] const Map& map() const;
   [[nodiscard]] const MapperCounts& counts() const;
   [[nodiscard]] const MapperTimes& times() const;
+  /// What may be the same place, in the order in which it was found, and what was decided.
+  [[nodiscard]] const Ledger& ledger() const;
 
  private:
   struct State;

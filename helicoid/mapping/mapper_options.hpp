@@ -29,6 +29,8 @@ struct MapperOptions {
   double reference_renewal_turn = 0.4;
   /// A match with fewer inliers is tried again from a fan of headings.
   double good_inlier_share = 0.55;
+  /// Loops are closed when the evidence is in.
+  bool closures = true;
 };
 
 }  // namespace helicoid

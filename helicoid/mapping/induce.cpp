@@ -1,0 +1,122 @@
+#include "helicoid/mapping/induce.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "helicoid/manifold/confidence.hpp"
+#include "helicoid/mapping/relate.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// Along a robot's way; patches nearer than this are one stretch, metres.
+constexpr double kStretch = 4;
+constexpr int kMinCorrespondences = 40;
+
+LocalMap local_map_about(const MapInProgress& progress, PatchId anchor, const MapperOptions& options) {
+  BoundOptions bound = bound_options(progress.map.patch(anchor), options.reference_position, options.reference_heading,
+                                     options.local_radius);
+  bound.most = options.local_patches;
+  return find_local_map(progress.map, progress.graph, anchor, bound);
+}
+
+RelateOptions relate_options(const Patch& patch) {
+  RelateOptions options;
+  options.kappa = patch.laser.kappa;
+  options.match.incidence_bias = patch.laser.incidence_bias;
+  options.min_correspondences = kMinCorrespondences;
+  return options;
+}
+
+/// True if some relation of the patch already leads to q's stretch of way.
+bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along) {
+  const auto near = [&](PatchId other) {
+    return map.patch(other).robot == map.patch(q).robot && std::abs(along[other.index()] - along[q.index()]) < kStretch;
+  };
+  if (near(patch)) return true;
+  const std::span<const RelationId> relations = map.relations_of(patch);
+  return std::any_of(relations.begin(), relations.end(), [&](RelationId id) {
+    const Relation& r = map.relation(id);
+    return r.kind != RelationKind::odometry && near(r.a == patch ? r.b : r.a);
+  });
+}
+
+/// Relates a patch to the views, all of them older. Those that it was related to.
+std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views,
+                               const PosePrior& prior, RelationKind kind) {
+  const Patch& patch = progress.map.patch(b);
+  std::vector<PatchId> related;
+  const RelatedPatch found = relate(progress.map, views, patch.points, prior, relate_options(patch));
+  for (const NewRelation& r : found.relations) {
+    progress.add({r.patch, b, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
+    related.push_back(r.patch);
+  }
+  return related;
+}
+
+/// Step 3 of IV-B for one patch of the queue.
+std::vector<PatchId> induce_at(MapInProgress& progress, PatchId b, std::span<const double> along,
+                               const MapperOptions& options) {
+  LocalMap local = local_map_about(progress, b, options);
+  std::erase_if(local, [&](const LocalPatch& p) {
+    return p.patch.value >= b.value || is_tied_to_stretch(progress.map, b, p.patch, along);
+  });
+  if (local.empty()) return {};
+  const std::vector<LocalPatch> views =
+      select_views(progress.map, local, progress.map.patch(b).points, Pose2{}, PatchId{}, 2);
+  if (views.empty()) return {};
+  return relate_to(progress, b, views, {Pose2{}, 1e2 * Matrix3d::Identity()}, RelationKind::overlap);
+}
+
+}  // namespace
+
+void MapInProgress::add(const Relation& relation) {
+  editor.add_relation(relation);
+  graph.add(relation.a.value, relation.b.value, relation.T_a_b,
+            expand(relation.form, relation.T_a_b).information / information_divisor(map, relation));
+}
+
+std::vector<PatchId> tie(MapInProgress& progress, const Hypothesis& h, const MapperOptions& options) {
+  LocalMap local = local_map_about(progress, h.a, options);
+  std::erase_if(local, [&](const LocalPatch& p) { return p.patch.value >= h.b.value; });
+  const std::vector<LocalPatch> views = select_views(progress.map, local, progress.map.patch(h.b).points,
+                                                     h.T_a_b.T_a_b, h.a, options.relation_views);
+  std::vector<PatchId> related =
+      relate_to(progress, h.b, views, {h.T_a_b.T_a_b, 1e-3 * Matrix3d::Identity()}, RelationKind::closure);
+  related.push_back(h.b);
+  return related;
+}
+
+std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> begin, std::span<const double> along,
+                            const MapperOptions& options) {
+  std::deque<PatchId> queue;
+  std::vector<bool> queued(progress.map.patch_count(), false);
+  const auto push = [&](PatchId id) {
+    if (queued[id.index()]) return;
+    queued[id.index()] = true;
+    queue.push_back(id);
+  };
+  const auto push_related = [&](PatchId id) {
+    push(id);
+    for (const RelationId r : progress.map.relations_of(id)) {
+      push(progress.map.relation(r).a);
+      push(progress.map.relation(r).b);
+    }
+  };
+  for (const PatchId id : begin) push_related(id);
+  std::vector<PatchId> touched;
+  while (!queue.empty()) {
+    const PatchId b = queue.front();
+    queue.pop_front();
+    const std::vector<PatchId> related = induce_at(progress, b, along, options);
+    if (related.empty()) continue;
+    touched.push_back(b);
+    push_related(b);
+    for (const PatchId id : related) push_related(id);
+  }
+  return touched;
+}
+
+}  // namespace helicoid

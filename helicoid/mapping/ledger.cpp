@@ -1,0 +1,15 @@
+#include "helicoid/mapping/ledger.hpp"
+
+namespace helicoid {
+
+const char* name_of(HypothesisState state) {
+  switch (state) {
+    case HypothesisState::open: return "open";
+    case HypothesisState::accepted: return "accepted";
+    case HypothesisState::rejected: return "rejected";
+    case HypothesisState::distinct: return "distinct";
+  }
+  return "unknown";
+}
+
+}  // namespace helicoid

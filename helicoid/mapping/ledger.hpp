@@ -1,0 +1,30 @@
+// The ledger of evidence (design 5.6): what may be the same place, and what was decided about it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "helicoid/base/ids.hpp"
+#include "helicoid/geometry/covariance.hpp"
+
+namespace helicoid {
+
+enum class HypothesisState : std::uint8_t { open, accepted, rejected, distinct };
+[[nodiscard]] const char* name_of(HypothesisState state);
+
+/// Patch b was perhaps taken where patch a lies.
+struct Hypothesis {
+  HypothesisState state = HypothesisState::open;
+  PatchId a, b;             ///< a < b
+  UncertainPose2 T_a_b;     ///< as aligned
+  double score = 0;         ///< share of b's points that lie on a's surfaces
+  double ambiguity = 0;     ///< score of the second-best placement over the best one's: 1 = no telling
+  double contradicted = 0;  ///< share of b's points that lie deep in what a's surroundings saw as free
+  std::vector<std::size_t> supports;  ///< entries that agree with this one, by their place in the ledger
+  std::string reason;                 ///< of the state, in words
+};
+
+using Ledger = std::vector<Hypothesis>;
+
+}  // namespace helicoid

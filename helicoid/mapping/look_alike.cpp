@@ -1,0 +1,175 @@
+#include "helicoid/mapping/look_alike.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/align/align_scan.hpp"
+#include "helicoid/align/place_search.hpp"
+#include "helicoid/manifold/confidence.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// Points of a place at most; more make it slower, not surer.
+constexpr std::size_t kPlacePoints = 700;
+/// A point this far from the edge of free space, in metres and of the range, contradicts it.
+constexpr double kDeep = 0.35;
+
+/// b and the patches that its robot kept on the last few metres before it.
+std::vector<PatchId> patches_before(const Map& map, PatchId b, const LookAlikeOptions& options) {
+  std::vector<PatchId> patches{b};
+  double way = 0;
+  for (std::size_t i = b.index(); i-- > 0 && patches.size() < options.place_patches;) {
+    const PatchId id = make_id<PatchId>(i);
+    if (map.patch(id).robot != map.patch(b).robot) continue;
+    way += (map.T_plane_patch(id).inverse() * map.T_plane_patch(patches.back())).distance();
+    if (way > options.place_reach) break;
+    patches.push_back(id);
+  }
+  return patches;
+}
+
+/// Their points in b's frame.
+ScanPoints points_of_place(const Map& map, PatchId b, std::span<const PatchId> patches) {
+  std::size_t all = 0;
+  for (const PatchId id : patches) all += map.patch(id).points.size();
+  const std::size_t stride = std::max<std::size_t>(1, all / kPlacePoints);
+  ScanPoints place;
+  for (const PatchId id : patches) {
+    const Pose2 T_b_patch = map.T_plane_patch(b).inverse() * map.T_plane_patch(id);
+    const Eigen::Matrix2f rotation = T_b_patch.rotation().cast<float>();
+    const Eigen::Vector2f offset = T_b_patch.translation().cast<float>();
+    const ScanPoints& points = map.patch(id).points;
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+      if (points.weight[i] <= 0) continue;
+      const Eigen::Vector2f p = rotation * Eigen::Vector2f(points.x[i], points.y[i]) + offset;
+      const Eigen::Vector2f n = rotation * Eigen::Vector2f(points.nx[i], points.ny[i]);
+      place.x.push_back(p.x());
+      place.y.push_back(p.y());
+      place.nx.push_back(n.x());
+      place.ny.push_back(n.y());
+      place.weight.push_back(points.weight[i]);
+      place.facing.push_back(points.facing[i]);
+      place.beam.push_back(points.beam[i]);
+    }
+  }
+  return place;
+}
+
+/// True if p_patch lies well within what the patch saw as free.
+bool is_deep_inside(const Patch& patch, const Vector2d& p_patch) {
+  const Vector2d p_laser = patch.scan.T_robot_laser.inverse() * p_patch;
+  const LaserModel& laser = patch.laser;
+  const double middle = laser.first_bearing + 0.5 * laser.field_of_view();
+  const double offset = wrap_angle(std::atan2(p_laser.y(), p_laser.x()) - middle) + 0.5 * laser.field_of_view();
+  const auto beam = std::lround(offset / laser.bearing_step);
+  // The neighbouring beams too: a point behind an edge is not inside.
+  for (long k = beam - 1; k <= beam + 1; ++k) {
+    if (k < 0 || k >= std::ssize(patch.free_ranges)) return false;
+    if (static_cast<double>(patch.free_ranges[static_cast<std::size_t>(k)]) < p_laser.norm() + kDeep) return false;
+  }
+  return true;
+}
+
+/// Share of the points (in b's frame) that lie deep in free space of one of the views.
+double contradicted_share(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
+                          const Pose2& T_a_b) {
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector2d p_a = T_a_b * Vector2d(points.x[i], points.y[i]);
+    inside += std::any_of(views.begin(), views.end(), [&](const LocalPatch& view) {
+      return is_deep_inside(map.patch(view.patch), view.T_anchor_patch.inverse() * p_a);
+    });
+  }
+  return points.size() > 0 ? static_cast<double>(inside) / static_cast<double>(points.size()) : 0;
+}
+
+double window_of(const UncertainPose2& T, const LookAlikeOptions& options) {
+  return options.sigmas / 1.96 * options.drift_inflation * confidence_interval(T.covariance).position;
+}
+
+}  // namespace
+
+std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& graph, PatchId b,
+                                       std::span<const BoundedPose> bounds, const LocalMap& known,
+                                       const LookAlikeOptions& options) {
+  std::vector<bool> is_known(map.patch_count(), false);
+  for (const LocalPatch& p : known) is_known[p.patch.index()] = true;
+  struct Near {
+    double distance;
+    const BoundedPose* pose;
+  };
+  std::vector<Near> near;
+  for (const BoundedPose& pose : bounds) {
+    if (is_known[pose.pose] || pose.pose == b.value) continue;
+    const double distance = pose.relative.T_a_b.distance();
+    const double window = window_of(pose.relative, options);
+    if (window > options.widest || distance > window + 1.0) continue;
+    near.push_back({distance, &pose});
+  }
+  std::sort(near.begin(), near.end(), [](const Near& x, const Near& y) {
+    return x.distance != y.distance ? x.distance < y.distance : x.pose->pose < y.pose->pose;
+  });
+  std::vector<Candidate> candidates;
+  std::vector<bool> same_place(map.patch_count(), false);
+  for (const Near& n : near) {
+    if (same_place[n.pose->pose]) continue;
+    const PatchId a{n.pose->pose};
+    candidates.push_back({a, invert(n.pose->relative)});
+    if (candidates.size() == options.candidates) break;
+    for (const BoundedPose& other : tree_bound(graph, map.poses(), a.value, bound_options(map.patch(a), 0.5, 0.2, 10)))
+      same_place[other.pose] = true;
+  }
+  return candidates;
+}
+
+std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph& graph, const Candidate& candidate,
+                                         PatchId b, const MapperOptions& mapper, const LookAlikeOptions& options) {
+  const std::vector<PatchId> place = patches_before(map, b, options);
+  const ScanPoints points = points_of_place(map, b, place);
+  BoundOptions bound =
+      bound_options(map.patch(candidate.a), mapper.reference_position, mapper.reference_heading, mapper.local_radius);
+  bound.most = mapper.local_patches;
+  LocalMap local = find_local_map(map, graph, candidate.a, bound);
+  std::erase_if(local, [&](const LocalPatch& p) { return std::count(place.begin(), place.end(), p.patch) > 0; });
+  const std::vector<LocalPatch> views = nearest_views(local, Pose2{}, options.views);
+  std::vector<ReferencePart> parts;
+  for (const LocalPatch& view : views) parts.push_back({&map.patch(view.patch).points, view.T_anchor_patch});
+  Reference reference;
+  reference.build(parts);
+
+  PlaceWindow window;
+  window.T_reference_scan = candidate.T_a_b.T_a_b;
+  window.half_width = std::min(options.widest, window_of(candidate.T_a_b, options) + 0.3);
+  window.half_turn =
+      std::min(options.widest_turn,
+               options.sigmas * options.drift_inflation * std::sqrt(candidate.T_a_b.covariance(2, 2)) + 0.05);
+  const PlaceSearch found = search_place(reference, points, window);
+  if (found.best.score <= 0) return std::nullopt;
+
+  const LaserModel& laser = map.patch(b).laser;
+  AlignOptions align;
+  align.kappa = laser.kappa * static_cast<double>(place.size());
+  align.incidence_bias = laser.incidence_bias;
+  const Alignment alignment =
+      align_scan(reference, points, {found.best.T_reference_scan, 1e-3 * Matrix3d::Identity()}, align);
+  if (alignment.status != AlignStatus::aligned || alignment.inlier_share < options.least_score) return std::nullopt;
+  const double contradicted = contradicted_share(map, views, points, alignment.T_reference_scan);
+  if (contradicted > options.most_contradicted) return std::nullopt;
+
+  Hypothesis h;
+  h.a = candidate.a;
+  h.b = b;
+  h.T_a_b.T_a_b = alignment.T_reference_scan;
+  h.T_a_b.covariance = (alignment.information / align.kappa).inverse();
+  h.T_a_b.covariance = with_noise_floor(h.T_a_b, noise_floor(bound.floor_position, bound.floor_heading),
+                                        noise_floor(laser.floor_position, laser.floor_heading));
+  h.score = alignment.inlier_share;
+  h.ambiguity = found.second.score / found.best.score;
+  h.contradicted = contradicted;
+  return h;
+}
+
+}  // namespace helicoid

@@ -1,0 +1,42 @@
+// Finds the places of the map that a patch may show again (paper IV-B; design 5.6).
+#pragma once
+
+#include <optional>
+
+#include "helicoid/mapping/ledger.hpp"
+#include "helicoid/mapping/local_map.hpp"
+#include "helicoid/mapping/mapper_options.hpp"
+
+namespace helicoid {
+
+struct LookAlikeOptions {
+  double widest = 8;            ///< windows wider than this are left for later, metres
+  double widest_turn = 0.7;     ///< radians
+  double sigmas = 3;            ///< the window's half-width, in standard deviations
+  double drift_inflation = 2;   ///< of the stated deviations: drift is not all random
+  double place_reach = 5;       ///< the way whose patches make up the place, metres
+  std::size_t place_patches = 5;
+  std::size_t views = 8;        ///< patches about the candidate that it is compared with
+  std::size_t candidates = 2;
+  double least_score = 0.62;    ///< inlier share of an alignment
+  double most_contradicted = 0.12;
+};
+
+/// A patch that may show the same place, and where.
+struct Candidate {
+  PatchId a;
+  UncertainPose2 T_a_b;  ///< as the map has it, and an upper bound of its covariance
+};
+
+/// The patches that may lie where `b` does without the map being sure: nearest first, one a place. `known` are those
+/// that it is sure about. `bounds`: everything relative to b.
+[[nodiscard]] std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& graph, PatchId b,
+                                                     std::span<const BoundedPose> bounds, const LocalMap& known,
+                                                     const LookAlikeOptions& options);
+
+/// Aligns what was seen about b with what was seen about a, over the whole window. Nothing if they do not fit.
+[[nodiscard]] std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph& graph,
+                                                       const Candidate& candidate, PatchId b,
+                                                       const MapperOptions& mapper, const LookAlikeOptions& options);
+
+}  // namespace helicoid

@@ -1,0 +1,106 @@
+#include "helicoid/mapping/loop_closer.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/manifold/confidence.hpp"
+
+namespace helicoid {
+
+namespace {
+
+const BoundedPose* find(std::span<const BoundedPose> poses, PatchId id) {
+  const auto at = std::find_if(poses.begin(), poses.end(), [&](const BoundedPose& p) { return p.pose == id.value; });
+  return at == poses.end() ? nullptr : &*at;
+}
+
+/// chi^2 of the difference of two statements about one relative pose.
+double disagreement(const UncertainPose2& first, const UncertainPose2& second) {
+  const Vector3d off(first.T_a_b.x - second.T_a_b.x, first.T_a_b.y - second.T_a_b.y,
+                     wrap_angle(first.T_a_b.yaw - second.T_a_b.yaw));
+  return off.dot((first.covariance + second.covariance).ldlt().solve(off));
+}
+
+}  // namespace
+
+void LoopCloser::extend_way(const Map& map, PatchId b) {
+  const std::size_t robot = map.patch(b).robot.index();
+  if (last_of_robot_.size() <= robot) {
+    last_of_robot_.resize(robot + 1);
+    searched_at_.resize(robot + 1, 0);
+  }
+  along_.resize(b.index() + 1, 0);
+  const PatchId last = last_of_robot_[robot];
+  if (last.valid()) {
+    along_[b.index()] =
+        along_[last.index()] + (map.T_plane_patch(last).inverse() * map.T_plane_patch(b)).distance();
+  }
+  last_of_robot_[robot] = b;
+}
+
+std::vector<std::size_t> LoopCloser::observe(const Map& map, const InformationGraph& graph, PatchId b,
+                                             const LocalMap& known) {
+  extend_way(map, b);
+  const std::size_t robot = map.patch(b).robot.index();
+  if (along_[b.index()] - searched_at_[robot] < options_.search_spacing) return {};
+  searched_at_[robot] = along_[b.index()];
+  BoundOptions everything = bound_options(map.patch(b), 1e3, 1e3, 1e9);
+  everything.most = map.patch_count();
+  const std::vector<BoundedPose> about_b = tree_bound(graph, map.poses(), b.value, everything);
+  std::vector<std::size_t> accepted;
+  for (const Candidate& candidate : find_candidates(map, graph, b, about_b, known, options_.look_alike)) {
+    std::optional<Hypothesis> found = compare_places(map, graph, candidate, b, mapper_, options_.look_alike);
+    if (!found) continue;
+    const std::size_t entry = ledger_.size();
+    ledger_.push_back(std::move(*found));
+    std::vector<std::size_t> agreeing = find_support(map, graph, about_b, entry);
+    ledger_[entry].supports = agreeing;
+    agreeing.push_back(entry);
+    ledger_[entry].reason = "waits for others that agree";
+    if (!is_enough(agreeing)) continue;
+    for (const std::size_t i : agreeing) {
+      if (ledger_[i].state != HypothesisState::open) continue;
+      ledger_[i].state = HypothesisState::accepted;
+      ledger_[i].reason = "agrees with others of the same passage";
+      accepted.push_back(i);
+    }
+  }
+  return accepted;
+}
+
+std::vector<std::size_t> LoopCloser::find_support(const Map& map, const InformationGraph& graph,
+                                                  std::span<const BoundedPose> about_b, std::size_t entry) const {
+  const Hypothesis& h = ledger_[entry];
+  const std::vector<BoundedPose> about_a =
+      tree_bound(graph, map.poses(), h.a.value, bound_options(map.patch(h.a), 0.6, 0.25, 30));
+  std::vector<std::size_t> agreeing;
+  const std::size_t first = entry > options_.memory ? entry - options_.memory : 0;
+  for (std::size_t i = first; i < entry; ++i) {
+    const Hypothesis& other = ledger_[i];
+    if (other.b == h.b || other.state == HypothesisState::rejected) continue;
+    const BoundedPose* a_other = find(about_a, other.a);
+    const BoundedPose* b_other = find(about_b, other.b);
+    if (a_other == nullptr || b_other == nullptr) continue;
+    const UncertainPose2 around =
+        compound(compound(a_other->relative, other.T_a_b), invert(b_other->relative));
+    if (confidence_interval(around.covariance).position > 1.0) continue;
+    if (disagreement(around, h.T_a_b) < options_.consistent) agreeing.push_back(i);
+  }
+  return agreeing;
+}
+
+bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing) const {
+  if (agreeing.size() < options_.least_agreeing) return false;
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  bool clear = false;
+  for (const std::size_t i : agreeing) {
+    low = std::min(low, along_[ledger_[i].b.index()]);
+    high = std::max(high, along_[ledger_[i].b.index()]);
+    clear = clear || ledger_[i].ambiguity < options_.most_ambiguous;
+  }
+  return clear && high - low >= options_.least_way;
+}
+
+}  // namespace helicoid

@@ -1,0 +1,45 @@
+// Decides when a robot has come back (paper IV-B, lazily; design 5.6): keeps the ledger and accepts what agrees.
+#pragma once
+
+#include "helicoid/mapping/look_alike.hpp"
+
+namespace helicoid {
+
+struct LoopCloserOptions {
+  LookAlikeOptions look_alike;
+  double search_spacing = 1.5;     ///< a robot looks for look-alikes this often along its way, metres
+  double consistent = 11.345;      ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
+  std::size_t memory = 60;         ///< entries back that may support a new one
+  std::size_t least_agreeing = 3;  ///< hypotheses of different patches that must agree
+  double least_way = 2;            ///< the robot's way over which they must extend, metres
+  double most_ambiguous = 0.9;     ///< one at least must be clearer than this
+};
+
+class LoopCloser {
+ public:
+  explicit LoopCloser(const MapperOptions& mapper, const LoopCloserOptions& options = {})
+      : mapper_(mapper), options_(options) {}
+
+  /// To be called for every patch that was kept, its relations in the map; `known`: the local map that it was matched
+  /// with. The places in the ledger of the entries that are accepted now.
+  std::vector<std::size_t> observe(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known);
+
+  [[nodiscard]] const Ledger& ledger() const { return ledger_; }
+  /// How far along its robot's way each patch was kept, metres.
+  [[nodiscard]] std::span<const double> along() const { return along_; }
+
+ private:
+  void extend_way(const Map& map, PatchId b);
+  std::vector<std::size_t> find_support(const Map& map, const InformationGraph& graph,
+                                        std::span<const BoundedPose> about_b, std::size_t entry) const;
+  [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing) const;
+
+  MapperOptions mapper_;
+  LoopCloserOptions options_;
+  Ledger ledger_;
+  std::vector<double> along_;
+  std::vector<PatchId> last_of_robot_;
+  std::vector<double> searched_at_;  ///< by robot, along its way
+};
+
+}  // namespace helicoid
