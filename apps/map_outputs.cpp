@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "apps/ledger_json.hpp"
 #include "helicoid/base/whole_file.hpp"
 #include "helicoid/charts/picture.hpp"
 #include "helicoid/charts/ros_map.hpp"
@@ -144,8 +145,7 @@ Result<void> write_records(const MapRun& run, const MapReport& report, const std
   const Map& map = run.mapper.map();
   if (auto done = write_trajectories(map, report, folder, online_only); !done) return done;
   if (auto done = write_whole_file(folder + "/graph.g2o", to_g2o(map)); !done) return done;
-  if (auto done = write_whole_file(folder + "/ledger.json", "{\"format\": \"helicoid-ledger\", \"entries\": []}\n");
-      !done) {
+  if (auto done = write_whole_file(folder + "/ledger.json", ledger_json(map, run.mapper.ledger())); !done) {
     return done;
   }
   return write_map(map, folder + "/map.gpkg");

@@ -90,7 +90,8 @@ Json summarise(const MapRun& run, const MapReport& report, const Json& options) 
   json["robots"] = robots;
   add_contents(json, map, report);
   Json closures = {{"open", 0}, {"accepted", 0}, {"rejected", 0}, {"distinct", 0}};
-  for (const Hypothesis& h : run.mapper.ledger()) closures[name_of(h.state)] = closures[name_of(h.state)].get<int>() + 1;
+  for (const Hypothesis& h : run.mapper.ledger())
+    closures[name_of(h.state)] = closures[name_of(h.state)].get<int>() + 1;
   json["closures"] = closures;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -39,7 +39,7 @@ Json options_json(const MapArguments& a) {
                {"from", a.from},
                {"to", a.to < 1e300 ? Json(a.to) : Json()},
                {"charts", !a.no_charts},
-               {"closures", false},
+               {"closures", !a.no_closures},
                {"join", a.join},
                {"online", a.online}};
   return json;
@@ -57,13 +57,16 @@ void print_report(const MapRun& run, const Json& summary, const MapArguments& a,
                island["sheets"].get<int>() == 1 ? "planar" : fmt::format("{} sheets", island["sheets"].get<int>()),
                fmt::join(island["robots"].get<std::vector<std::string>>(), ", "));
   }
+  const auto& closures = summary["closures"];
+  fmt::print("loops      {} look-alikes accepted, {} open\n", closures["accepted"].get<int>(),
+             closures["open"].get<int>());
   fmt::print("cpu        {:.3f} s, {:.0f} us a scan (99 %: {:.0f} us), {:.0f} MB\n", summary["cpu_s"].get<double>(),
              summary["scan_us_p50"].get<double>(), summary["scan_us_p99"].get<double>(),
              summary["peak_rss_mb"].get<double>());
   const auto& phase = summary["phase_cpu_s"];
-  fmt::print("           read {:.3f}, match {:.3f}, fit {:.3f}, charts {:.3f}, write {:.3f}\n",
+  fmt::print("           read {:.3f}, match {:.3f}, fit {:.3f}, close {:.3f}, charts {:.3f}, write {:.3f}\n",
              phase["read"].get<double>(), phase["match"].get<double>(), phase["fit"].get<double>(),
-             phase["charts"].get<double>(), phase["write"].get<double>());
+             phase["close"].get<double>(), phase["charts"].get<double>(), phase["write"].get<double>());
   fmt::print("map        {}/map.gpkg\n", a.out);
   for (std::size_t i = 0; i < std::min<std::size_t>(files.size(), 6); ++i) fmt::print("picture    {}\n", files[i]);
   if (files.size() > 6) fmt::print("           and {} more\n", files.size() - 6);
@@ -113,6 +116,7 @@ int run_verb(const MapArguments& a) {
   job.every = a.every;
   job.from = a.from;
   job.to = a.to;
+  job.mapper.closures = !a.no_closures;
   job.progress = [&bar](double share) { bar.show(share, "mapping"); };
   Result<MapRun> run = run_map(job);
   if (!run) return report_failure(run.error().message);
@@ -139,7 +143,7 @@ void add_map_verb(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   verb->add_flag("--no-charts", a->no_charts, "write no pictures");
-  verb->add_flag("--no-closures", a->no_closures, "close no loops (none are closed yet)");
+  verb->add_flag("--no-closures", a->no_closures, "close no loops: a loop stays a spiral");
   verb->add_flag("--online", a->online,
                  "trajectories: each pose as the robot would have had it then, not as it is known now");
   verb->add_flag("--force", a->force, "write into a folder that something else made");

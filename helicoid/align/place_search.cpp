@@ -13,7 +13,7 @@ constexpr int kReach = 3;
 constexpr int kFull = 255;
 /// Levels of the pyramid: the coarsest covers 16 x 16 cells.
 constexpr int kLevels = 5;
-constexpr std::size_t kMostPoints = 160;
+constexpr std::size_t kMostPoints = 100;
 constexpr int kMostSide = 2000;
 
 struct Cell {
@@ -86,8 +86,9 @@ class ScorePyramid {
       for (int c = 0; c < width; ++c) {
         const int column = c - side + 1;
         const int row = r - side + 1;
-        const int most = std::max(std::max(at(level - 1, column, row), at(level - 1, column + half, row)),
-                                  std::max(at(level - 1, column, row + half), at(level - 1, column + half, row + half)));
+        const int most =
+            std::max(std::max(at(level - 1, column, row), at(level - 1, column + half, row)),
+                     std::max(at(level - 1, column, row + half), at(level - 1, column + half, row + half)));
         levels_[level][static_cast<std::size_t>(r) * width + c] = static_cast<std::uint8_t>(most);
       }
     }

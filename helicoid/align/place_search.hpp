@@ -10,7 +10,7 @@ struct PlaceWindow {
   Pose2 T_reference_scan;      ///< the middle
   double half_width = 2;       ///< along either axis, metres
   double half_turn = 0.3;      ///< radians
-  double turn_step = 0.03;     ///< between the headings that are tried, radians
+  double turn_step = 0.04;     ///< between the headings that are tried, radians
   double least_score = 0.4;    ///< placements that score less are not looked for
   double apart = 0.6;          ///< a placement this far from the best one is another one, metres
   double turned_apart = 0.25;  ///< or turned by this much, radians

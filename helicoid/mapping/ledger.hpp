@@ -16,11 +16,11 @@ enum class HypothesisState : std::uint8_t { open, accepted, rejected, distinct }
 /// Patch b was perhaps taken where patch a lies.
 struct Hypothesis {
   HypothesisState state = HypothesisState::open;
-  PatchId a, b;             ///< a < b
-  UncertainPose2 T_a_b;     ///< as aligned
-  double score = 0;         ///< share of b's points that lie on a's surfaces
-  double ambiguity = 0;     ///< score of the second-best placement over the best one's: 1 = no telling
-  double contradicted = 0;  ///< share of b's points that lie deep in what a's surroundings saw as free
+  PatchId a, b;                       ///< a < b
+  UncertainPose2 T_a_b;               ///< as aligned
+  double score = 0;                   ///< share of b's points that lie on a's surfaces
+  double ambiguity = 0;               ///< score of the second-best placement over the best one's: 1 = no telling
+  double contradicted = 0;            ///< share of b's points that lie deep in what a's surroundings saw as free
   std::vector<std::size_t> supports;  ///< entries that agree with this one, by their place in the ledger
   std::string reason;                 ///< of the state, in words
 };

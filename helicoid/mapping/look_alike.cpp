@@ -103,7 +103,7 @@ std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& g
   };
   std::vector<Near> near;
   for (const BoundedPose& pose : bounds) {
-    if (is_known[pose.pose] || pose.pose == b.value) continue;
+    if (is_known[pose.pose] || pose.pose >= b.value) continue;
     const double distance = pose.relative.T_a_b.distance();
     const double window = window_of(pose.relative, options);
     if (window > options.widest || distance > window + 1.0) continue;

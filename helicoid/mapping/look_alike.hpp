@@ -10,15 +10,15 @@
 namespace helicoid {
 
 struct LookAlikeOptions {
-  double widest = 8;            ///< windows wider than this are left for later, metres
-  double widest_turn = 0.7;     ///< radians
-  double sigmas = 3;            ///< the window's half-width, in standard deviations
-  double drift_inflation = 2;   ///< of the stated deviations: drift is not all random
-  double place_reach = 5;       ///< the way whose patches make up the place, metres
+  double widest = 8;           ///< windows wider than this are left for later, metres
+  double widest_turn = 0.7;    ///< radians
+  double sigmas = 3;           ///< the window's half-width, in standard deviations
+  double drift_inflation = 2;  ///< of the stated deviations: drift is not all random
+  double place_reach = 5;      ///< the way whose patches make up the place, metres
   std::size_t place_patches = 5;
-  std::size_t views = 8;        ///< patches about the candidate that it is compared with
+  std::size_t views = 8;  ///< patches about the candidate that it is compared with
   std::size_t candidates = 2;
-  double least_score = 0.62;    ///< inlier share of an alignment
+  double least_score = 0.62;  ///< inlier share of an alignment
   double most_contradicted = 0.12;
 };
 

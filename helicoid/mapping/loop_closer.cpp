@@ -33,18 +33,24 @@ void LoopCloser::extend_way(const Map& map, PatchId b) {
   along_.resize(b.index() + 1, 0);
   const PatchId last = last_of_robot_[robot];
   if (last.valid()) {
-    along_[b.index()] =
-        along_[last.index()] + (map.T_plane_patch(last).inverse() * map.T_plane_patch(b)).distance();
+    along_[b.index()] = along_[last.index()] + (map.T_plane_patch(last).inverse() * map.T_plane_patch(b)).distance();
   }
   last_of_robot_[robot] = b;
 }
 
+void LoopCloser::start_again() {
+  std::fill(searched_at_.begin(), searched_at_.end(), -HUGE_VAL);
+}
+
+bool LoopCloser::is_due(const Map& map, PatchId b) const {
+  return along_[b.index()] - searched_at_[map.patch(b).robot.index()] >= options_.search_spacing;
+}
+
 std::vector<std::size_t> LoopCloser::observe(const Map& map, const InformationGraph& graph, PatchId b,
                                              const LocalMap& known) {
-  extend_way(map, b);
-  const std::size_t robot = map.patch(b).robot.index();
-  if (along_[b.index()] - searched_at_[robot] < options_.search_spacing) return {};
-  searched_at_[robot] = along_[b.index()];
+  if (b.index() >= along_.size()) extend_way(map, b);
+  if (!is_due(map, b)) return {};
+  searched_at_[map.patch(b).robot.index()] = along_[b.index()];
   BoundOptions everything = bound_options(map.patch(b), 1e3, 1e3, 1e9);
   everything.most = map.patch_count();
   const std::vector<BoundedPose> about_b = tree_bound(graph, map.poses(), b.value, everything);
@@ -82,8 +88,7 @@ std::vector<std::size_t> LoopCloser::find_support(const Map& map, const Informat
     const BoundedPose* a_other = find(about_a, other.a);
     const BoundedPose* b_other = find(about_b, other.b);
     if (a_other == nullptr || b_other == nullptr) continue;
-    const UncertainPose2 around =
-        compound(compound(a_other->relative, other.T_a_b), invert(b_other->relative));
+    const UncertainPose2 around = compound(compound(a_other->relative, other.T_a_b), invert(b_other->relative));
     if (confidence_interval(around.covariance).position > 1.0) continue;
     if (disagreement(around, h.T_a_b) < options_.consistent) agreeing.push_back(i);
   }

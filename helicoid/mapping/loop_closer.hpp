@@ -24,6 +24,11 @@ class LoopCloser {
   /// with. The places in the ledger of the entries that are accepted now.
   std::vector<std::size_t> observe(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known);
 
+  /// Lets every patch be looked at once more, from the first on.
+  void start_again();
+  /// True if the robot has gone on far enough since the last search for another one at this patch.
+  [[nodiscard]] bool is_due(const Map& map, PatchId b) const;
+
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
   /// How far along its robot's way each patch was kept, metres.
   [[nodiscard]] std::span<const double> along() const { return along_; }

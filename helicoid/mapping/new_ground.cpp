@@ -55,4 +55,8 @@ double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anc
   return all > 0 ? uncovered / all : 0;
 }
 
+bool has_moved(const Pose2& from, const Pose2& to, double distance, double angle) {
+  return std::hypot(to.x - from.x, to.y - from.y) > distance || std::abs(wrap_angle(to.yaw - from.yaw)) > angle;
+}
+
 }  // namespace helicoid

@@ -14,4 +14,7 @@ namespace helicoid {
 [[nodiscard]] double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot,
                                      const Scan& scan, const LaserModel& laser);
 
+/// True if a pose has moved by more than this distance (metres) or angle (radians).
+[[nodiscard]] bool has_moved(const Pose2& from, const Pose2& to, double distance, double angle);
+
 }  // namespace helicoid

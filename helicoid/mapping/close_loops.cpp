@@ -1,10 +1,11 @@
-#include "helicoid/mapping/induce.hpp"
+#include "helicoid/mapping/close_loops.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
 #include "helicoid/manifold/confidence.hpp"
+#include "helicoid/mapping/fit_islands.hpp"
 #include "helicoid/mapping/relate.hpp"
 
 namespace helicoid {
@@ -56,9 +57,21 @@ std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<con
   return related;
 }
 
+/// True if an older patch lies about b that b is not tied to: without one nothing can be induced.
+bool may_be_induced(const Map& map, PatchId b, std::span<const double> along, double radius) {
+  const Vector2d place = map.T_plane_patch(b).translation();
+  for (std::size_t i = 0; i < b.index(); ++i) {
+    const PatchId id = make_id<PatchId>(i);
+    if ((map.T_plane_patch(id).translation() - place).squaredNorm() > radius * radius) continue;
+    if (map.island_of(id) == map.island_of(b) && !is_tied_to_stretch(map, b, id, along)) return true;
+  }
+  return false;
+}
+
 /// Step 3 of IV-B for one patch of the queue.
 std::vector<PatchId> induce_at(MapInProgress& progress, PatchId b, std::span<const double> along,
                                const MapperOptions& options) {
+  if (!may_be_induced(progress.map, b, along, options.local_radius)) return {};
   LocalMap local = local_map_about(progress, b, options);
   std::erase_if(local, [&](const LocalPatch& p) {
     return p.patch.value >= b.value || is_tied_to_stretch(progress.map, b, p.patch, along);
@@ -70,25 +83,20 @@ std::vector<PatchId> induce_at(MapInProgress& progress, PatchId b, std::span<con
   return relate_to(progress, b, views, {Pose2{}, 1e2 * Matrix3d::Identity()}, RelationKind::overlap);
 }
 
-}  // namespace
-
-void MapInProgress::add(const Relation& relation) {
-  editor.add_relation(relation);
-  graph.add(relation.a.value, relation.b.value, relation.T_a_b,
-            expand(relation.form, relation.T_a_b).information / information_divisor(map, relation));
-}
-
+/// Ties b to what lies about a as an accepted hypothesis says. The patches that were related.
 std::vector<PatchId> tie(MapInProgress& progress, const Hypothesis& h, const MapperOptions& options) {
   LocalMap local = local_map_about(progress, h.a, options);
   std::erase_if(local, [&](const LocalPatch& p) { return p.patch.value >= h.b.value; });
-  const std::vector<LocalPatch> views = select_views(progress.map, local, progress.map.patch(h.b).points,
-                                                     h.T_a_b.T_a_b, h.a, options.relation_views);
+  const std::vector<LocalPatch> views =
+      select_views(progress.map, local, progress.map.patch(h.b).points, h.T_a_b.T_a_b, h.a, options.relation_views);
   std::vector<PatchId> related =
       relate_to(progress, h.b, views, {h.T_a_b.T_a_b, 1e-3 * Matrix3d::Identity()}, RelationKind::closure);
   related.push_back(h.b);
   return related;
 }
 
+/// Eq. 16's queue, from these patches on. `along`: how far along its robot's way each patch was kept, metres: one patch
+/// of a stretch is enough to relate to. The patches that were newly related; none if nothing was induced.
 std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> begin, std::span<const double> along,
                             const MapperOptions& options) {
   std::deque<PatchId> queue;
@@ -117,6 +125,45 @@ std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> be
     for (const PatchId id : related) push_related(id);
   }
   return touched;
+}
+
+}  // namespace
+
+void MapInProgress::add(const Relation& relation) {
+  editor.add_relation(relation);
+  graph.add(relation.a.value, relation.b.value, relation.T_a_b,
+            expand(relation.form, relation.T_a_b).information / information_divisor(map, relation));
+}
+
+bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const LocalMap& known,
+                 const MapperOptions& options) {
+  constexpr int kRounds = 10;
+  std::vector<PatchId> touched;
+  for (const std::size_t entry : closer.observe(progress.map, progress.graph, b, known)) {
+    const std::vector<PatchId> tied = tie(progress, closer.ledger()[entry], options);
+    touched.insert(touched.end(), tied.begin(), tied.end());
+  }
+  if (touched.empty()) return false;
+  for (int round = 0; round < kRounds && !touched.empty(); ++round) {
+    fit_islands(progress.map, progress.editor);
+    progress.graph = information_graph(progress.map);
+    touched = induce(progress, touched, closer.along(), options);
+  }
+  return true;
+}
+
+void close_loops_again(MapInProgress& progress, LoopCloser& closer, const MapperOptions& options) {
+  constexpr int kPasses = 3;
+  bool changed = true;
+  for (int pass = 0; pass < kPasses && changed; ++pass) {
+    changed = false;
+    closer.start_again();
+    for (std::size_t i = 0; i < progress.map.patch_count(); ++i) {
+      const PatchId b = make_id<PatchId>(i);
+      if (!closer.is_due(progress.map, b)) continue;
+      changed = close_loops(progress, closer, b, local_map_about(progress, b, options), options) || changed;
+    }
+  }
 }
 
 }  // namespace helicoid

@@ -1,0 +1,26 @@
+// Loop closure's second half (paper IV-B, eq. 16): a new relation makes formerly unrelated patches confident of one
+// another; those that overlap are related in turn, until nothing new is induced.
+#pragma once
+
+#include "helicoid/manifold/map_editor.hpp"
+#include "helicoid/mapping/loop_closer.hpp"
+
+namespace helicoid {
+
+/// The map that is being changed and the information of its relations, which must follow.
+struct MapInProgress {
+  const Map& map;
+  MapEditor& editor;
+  InformationGraph& graph;
+  void add(const Relation& relation);
+};
+
+/// After patch b was kept: acts on what the closer accepts now, fits, and relates what has become related (eq. 16's
+/// queue) until nothing is induced any more. True if the map has changed.
+bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const LocalMap& known,
+                 const MapperOptions& options);
+
+/// The same for all patches once more, now that more is known of each, until a pass changes nothing.
+void close_loops_again(MapInProgress& progress, LoopCloser& closer, const MapperOptions& options);
+
+}  // namespace helicoid

@@ -1,0 +1,45 @@
+// What the mapper knows between two events. Private to the mapper's own files.
+#pragma once
+
+#include "helicoid/align/align_scan.hpp"
+#include "helicoid/mapping/close_loops.hpp"
+#include "helicoid/mapping/mapper.hpp"
+#include "helicoid/mapping/robot_state.hpp"
+
+namespace helicoid {
+
+struct Mapper::State {
+  explicit State(const MapperOptions& o) : options(o), editor(map), closer(o) {}
+
+  MapperOptions options;
+  Map map;
+  MapEditor editor;
+  InformationGraph graph;
+  LoopCloser closer;
+  std::vector<RobotState> robots;
+  MapperCounts counts;
+  MapperTimes times;
+  std::size_t patches_at_last_fit = 0;
+
+  Step step(const Event& event, const Scan& scan);
+  Step start_island(RobotState& robot, const Event& event, const Scan& scan);
+  void renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot);
+  Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const LaserModel& laser);
+  Alignment match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior, const Alignment& failed,
+                             const LaserModel& laser);
+  bool is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan, std::size_t points,
+                        const LaserModel& laser) const;
+  void count(const Event& event, const Sighting& sighting);
+  PatchId keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched);
+  void relate_to_last(RobotState& robot, PatchId id);
+  void look_for_loops(PatchId id, const LocalMap& known);
+  void look_for_loops_again();
+  void add_relation(const Relation& relation);
+  void reanchor(RobotState& robot);
+  const LaserModel& laser_of(RobotId robot, const Scan& scan) const { return map.robot(robot).lasers[scan.laser]; }
+};
+
+/// CPU seconds of this thread so far.
+[[nodiscard]] double thread_seconds();
+
+}  // namespace helicoid

@@ -1,0 +1,89 @@
+// Where a robot stands: the reference that its scan is matched with, the match, and the patch that it stands on.
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/manifold/confidence.hpp"
+#include "helicoid/mapping/mapper_state.hpp"
+#include "helicoid/mapping/new_ground.hpp"
+
+namespace helicoid {
+
+void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot) {
+  if (!robot.stale && !has_moved(robot.T_anchor_reference_view, T_anchor_robot, options.reference_renewal,
+                                 options.reference_renewal_turn)) {
+    return;
+  }
+  if (robot.stale) {
+    BoundOptions bound = bound_options(map.patch(robot.pose.patch), options.reference_position,
+                                       options.reference_heading, options.local_radius);
+    bound.most = options.local_patches;
+    robot.local = find_local_map(map, graph, robot.pose.patch, bound);
+    robot.T_anchor_coverage_view = T_anchor_robot;
+    robot.stale = false;
+  }
+  std::vector<ReferencePart> parts;
+  for (const LocalPatch& view :
+       select_views(map, robot.local, points, T_anchor_robot, robot.last_kept, options.reference_views)) {
+    parts.push_back({&map.patch(view.patch).points, view.T_anchor_patch});
+  }
+  robot.reference.build(parts);
+  robot.T_anchor_reference_view = T_anchor_robot;
+}
+
+Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, const PosePrior& prior,
+                               const LaserModel& laser) {
+  AlignOptions align;
+  align.kappa = laser.kappa;
+  align.incidence_bias = laser.incidence_bias;
+  Alignment alignment = align_scan(robot.reference, points, prior, align);
+  if (robot.motion.in_doubt() || alignment.inlier_share < options.good_inlier_share) {
+    const Motion steady = robot.motion.constant_velocity();
+    const Alignment other =
+        align_scan(robot.reference, points,
+                   {robot.pose.T_patch_robot * steady.T_last_now, robot.motion.information(steady)}, align);
+    if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
+  }
+  if (alignment.status == AlignStatus::too_few_inliers || alignment.inlier_share < options.good_inlier_share) {
+    const Alignment fan = align_scan_in_fan(robot.reference, points, prior, align);
+    ++counts.coarse_searches;
+    if (fan.usable() && fan.inlier_share > alignment.inlier_share) alignment = fan;
+  }
+  return alignment;
+}
+
+/// The older ground on which the robot was taken to stand does not fit: back to the patch that it kept last.
+Alignment Mapper::State::match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior,
+                                          const Alignment& failed, const LaserModel& laser) {
+  const ManifoldPose pose = robot.pose;
+  const PosePrior there = prior;
+  const Pose2 T_last_anchor = map.T_plane_patch(robot.last_kept).inverse() * map.T_plane_patch(pose.patch);
+  robot.pose = {robot.last_kept, T_last_anchor * pose.T_patch_robot};
+  Matrix3d J = Matrix3d::Identity();
+  J.topLeftCorner<2, 2>() = T_last_anchor.rotation().transpose();
+  prior = {T_last_anchor * there.T_reference_scan, J.transpose() * there.information * J};
+  robot.stale = true;
+  renew_reference(robot, points, prior.T_reference_scan);
+  Alignment alignment = match(robot, points, prior, laser);
+  if (alignment.usable()) return alignment;
+  robot.pose = pose;
+  prior = there;
+  robot.stale = true;
+  return failed;
+}
+
+void Mapper::State::reanchor(RobotState& robot) {
+  // Eq. 14: the nearest patch of the local map that overlaps; with hysteresis, so that the anchor does not flutter.
+  constexpr double kHysteresis = 0.8;
+  const std::vector<LocalPatch> nearest = nearest_views(robot.local, robot.pose.T_patch_robot, 1);
+  const LocalPatch& best = nearest.front();
+  if (best.patch == robot.pose.patch) return;
+  const Pose2 T_best_robot = best.T_anchor_patch.inverse() * robot.pose.T_patch_robot;
+  const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
+  const double now = T_anchor_robot.distance() + 1.5 * std::abs(T_anchor_robot.yaw);
+  const double then = T_best_robot.distance() + 1.5 * std::abs(T_best_robot.yaw);
+  if (then > kHysteresis * now - 0.05) return;
+  robot.pose = {best.patch, T_best_robot};
+  robot.stale = true;
+}
+
+}  // namespace helicoid
