@@ -132,11 +132,11 @@ Result<MapRun> run_map(const MapJob& job) {
   map_events(job, *logs, run);
   collect_skipped(run, *logs);
   const double mapping = std::accumulate(run.scan_seconds.begin(), run.scan_seconds.end(), 0.0);
-  run.phase.close = run.mapper.times().close_s;
-  run.phase.match = mapping - run.phase.close;
+  run.phase.match = mapping - run.mapper.times().close_s;
   run.phase.read = thread_cpu_seconds() - start - mapping;
   run.mapper.finish();
   run.phase.fit = run.mapper.times().fit_s;
+  run.phase.close = run.mapper.times().close_s;
   if (run.scans == 0) return fail("no scan was mapped: the logs hold none in the range that was asked for");
   return run;
 }

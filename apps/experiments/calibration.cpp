@@ -103,7 +103,9 @@ Result<Outcome> run_simulated(const std::string& world_name, std::uint64_t seed)
   SimulationOptions options;
   options.seed = seed;
   options.people = kPeople;
-  const Result<SimulatedRun> run = map_simulation(*world, options);
+  MapperOptions mapper;
+  mapper.closures = false;
+  const Result<SimulatedRun> run = map_simulation(*world, options, mapper);
   if (!run) return tl::unexpected(run.error());
   const StatedConfidence stated(run->map());
   Random random(seed);

@@ -47,10 +47,12 @@ std::vector<double> ways(const TrueTrack& track) {
   return way;
 }
 
-LapsResult drive(const World& world, std::uint64_t seed) {
+LapsResult drive(const World& world, std::uint64_t seed, bool closures) {
   SimulationOptions options;
   options.seed = seed;
   options.laps = kLaps;
+  MapperOptions mapper_options;
+  mapper_options.closures = closures;
   LapsResult result;
   int lap = 0;
   const auto observe = [&](const SimulatedEvent& event, const Step&, const Mapper& mapper) {
@@ -58,7 +60,7 @@ LapsResult drive(const World& world, std::uint64_t seed) {
     result.laps[static_cast<std::size_t>(lap)] = look(mapper.map());
     lap = event.lap;
   };
-  const SimulatedRun run = map_simulation(world, options, {}, observe).value();
+  const SimulatedRun run = map_simulation(world, options, mapper_options, observe).value();
   const Map& map = run.map();
   for (; lap < kLaps; ++lap) result.laps[static_cast<std::size_t>(lap)] = look(map);
   const std::vector<double> way = ways(run.tracks[0]);

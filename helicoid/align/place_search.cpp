@@ -215,7 +215,7 @@ PlaceSearch search_place(const Reference& reference, const ScanPoints& points, c
   const Search search(reference, points, window);
   result.best = search.best(window.least_score, nullptr);
   if (result.best.score > 0) {
-    result.second = search.best(std::max(window.least_score, 0.7 * result.best.score), &result.best);
+    result.second = search.best(std::max(window.least_score, 0.85 * result.best.score), &result.best);
   }
   return result;
 }

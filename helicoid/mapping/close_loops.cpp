@@ -1,5 +1,6 @@
 #include "helicoid/mapping/close_loops.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -58,7 +59,7 @@ std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<con
 }
 
 /// True if an older patch lies about b that b is not tied to: without one nothing can be induced.
-bool may_be_induced(const Map& map, PatchId b, std::span<const double> along, double radius) {
+bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along, double radius) {
   const Vector2d place = map.T_plane_patch(b).translation();
   for (std::size_t i = 0; i < b.index(); ++i) {
     const PatchId id = make_id<PatchId>(i);
@@ -71,7 +72,7 @@ bool may_be_induced(const Map& map, PatchId b, std::span<const double> along, do
 /// Step 3 of IV-B for one patch of the queue.
 std::vector<PatchId> induce_at(MapInProgress& progress, PatchId b, std::span<const double> along,
                                const MapperOptions& options) {
-  if (!may_be_induced(progress.map, b, along, options.local_radius)) return {};
+  if (!has_untied_ground(progress.map, b, along, options.local_radius)) return {};
   LocalMap local = local_map_about(progress, b, options);
   std::erase_if(local, [&](const LocalPatch& p) {
     return p.patch.value >= b.value || is_tied_to_stretch(progress.map, b, p.patch, along);
@@ -90,7 +91,7 @@ std::vector<PatchId> tie(MapInProgress& progress, const Hypothesis& h, const Map
   const std::vector<LocalPatch> views =
       select_views(progress.map, local, progress.map.patch(h.b).points, h.T_a_b.T_a_b, h.a, options.relation_views);
   std::vector<PatchId> related =
-      relate_to(progress, h.b, views, {h.T_a_b.T_a_b, 1e-3 * Matrix3d::Identity()}, RelationKind::closure);
+      relate_to(progress, h.b, views, {h.T_a_b.T_a_b, h.T_a_b.covariance.inverse()}, RelationKind::closure);
   related.push_back(h.b);
   return related;
 }
@@ -154,13 +155,15 @@ bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const L
 
 void close_loops_again(MapInProgress& progress, LoopCloser& closer, const MapperOptions& options) {
   constexpr int kPasses = 3;
+  // By now the map is nearly right: what overlaps lies near, metres.
+  constexpr double kNear = 3;
   bool changed = true;
   for (int pass = 0; pass < kPasses && changed; ++pass) {
     changed = false;
     closer.start_again();
     for (std::size_t i = 0; i < progress.map.patch_count(); ++i) {
       const PatchId b = make_id<PatchId>(i);
-      if (!closer.is_due(progress.map, b)) continue;
+      if (!closer.is_due(progress.map, b) || !has_untied_ground(progress.map, b, closer.along(), kNear)) continue;
       changed = close_loops(progress, closer, b, local_map_about(progress, b, options), options) || changed;
     }
   }

@@ -90,12 +90,24 @@ double window_of(const UncertainPose2& T, const LookAlikeOptions& options) {
   return options.sigmas / 1.96 * options.drift_inflation * confidence_interval(T.covariance).position;
 }
 
+PlaceWindow window_about(const Candidate& candidate, const LookAlikeOptions& options) {
+  PlaceWindow window;
+  window.T_reference_scan = candidate.T_a_b.T_a_b;
+  window.half_width = std::min(options.widest, window_of(candidate.T_a_b, options) + 0.3);
+  window.half_turn =
+      std::min(options.widest_turn,
+               options.sigmas * options.drift_inflation * std::sqrt(candidate.T_a_b.covariance(2, 2)) + 0.05);
+  window.least_score = options.least_search_score;
+  return window;
+}
+
 }  // namespace
 
 std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& graph, PatchId b,
                                        std::span<const BoundedPose> bounds, const LocalMap& known,
                                        const LookAlikeOptions& options) {
   std::vector<bool> is_known(map.patch_count(), false);
+  for (const PatchId id : patches_before(map, b, options)) is_known[id.index()] = true;
   for (const LocalPatch& p : known) is_known[p.patch.index()] = true;
   struct Near {
     double distance;
@@ -106,7 +118,7 @@ std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& g
     if (is_known[pose.pose] || pose.pose >= b.value) continue;
     const double distance = pose.relative.T_a_b.distance();
     const double window = window_of(pose.relative, options);
-    if (window > options.widest || distance > window + 1.0) continue;
+    if (distance > std::min(window, options.widest) + 1.0) continue;
     near.push_back({distance, &pose});
   }
   std::sort(near.begin(), near.end(), [](const Near& x, const Near& y) {
@@ -140,22 +152,21 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
   Reference reference;
   reference.build(parts);
 
-  PlaceWindow window;
-  window.T_reference_scan = candidate.T_a_b.T_a_b;
-  window.half_width = std::min(options.widest, window_of(candidate.T_a_b, options) + 0.3);
-  window.half_turn =
-      std::min(options.widest_turn,
-               options.sigmas * options.drift_inflation * std::sqrt(candidate.T_a_b.covariance(2, 2)) + 0.05);
-  const PlaceSearch found = search_place(reference, points, window);
-  if (found.best.score <= 0) return std::nullopt;
-
   const LaserModel& laser = map.patch(b).laser;
   AlignOptions align;
   align.kappa = laser.kappa * static_cast<double>(place.size());
   align.incidence_bias = laser.incidence_bias;
-  const Alignment alignment =
-      align_scan(reference, points, {found.best.T_reference_scan, 1e-3 * Matrix3d::Identity()}, align);
-  if (alignment.status != AlignStatus::aligned || alignment.inlier_share < options.least_score) return std::nullopt;
+  double ambiguity = 0;
+  PosePrior prior{candidate.T_a_b.T_a_b, candidate.T_a_b.covariance.inverse()};
+  if (confidence_interval(candidate.T_a_b.covariance).position > options.narrow) {
+    const PlaceSearch found = search_place(reference, points, window_about(candidate, options));
+    if (found.best.score <= 0) return std::nullopt;
+    ambiguity = found.second.score / found.best.score;
+    prior = {found.best.T_reference_scan, 1e-3 * Matrix3d::Identity()};
+  }
+  const Alignment alignment = align_scan(reference, points, prior, align);
+  if (!alignment.usable() || alignment.inlier_share < options.least_score) return std::nullopt;
+  if (alignment.status == AlignStatus::degenerate && ambiguity > 0) return std::nullopt;
   const double contradicted = contradicted_share(map, views, points, alignment.T_reference_scan);
   if (contradicted > options.most_contradicted) return std::nullopt;
 
@@ -163,11 +174,11 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
   h.a = candidate.a;
   h.b = b;
   h.T_a_b.T_a_b = alignment.T_reference_scan;
-  h.T_a_b.covariance = (alignment.information / align.kappa).inverse();
+  h.T_a_b.covariance = (alignment.information / align.kappa + 1e-3 * Matrix3d::Identity()).inverse();
   h.T_a_b.covariance = with_noise_floor(h.T_a_b, noise_floor(bound.floor_position, bound.floor_heading),
                                         noise_floor(laser.floor_position, laser.floor_heading));
   h.score = alignment.inlier_share;
-  h.ambiguity = found.second.score / found.best.score;
+  h.ambiguity = ambiguity;
   h.contradicted = contradicted;
   return h;
 }

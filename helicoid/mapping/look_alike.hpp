@@ -10,7 +10,8 @@
 namespace helicoid {
 
 struct LookAlikeOptions {
-  double widest = 8;           ///< windows wider than this are left for later, metres
+  double narrow = 0.5;         ///< if the map knows it this well (eq. 10), the match starts from there, metres
+  double widest = 8;           ///< windows are never wider, metres
   double widest_turn = 0.7;    ///< radians
   double sigmas = 3;           ///< the window's half-width, in standard deviations
   double drift_inflation = 2;  ///< of the stated deviations: drift is not all random
@@ -18,6 +19,7 @@ struct LookAlikeOptions {
   std::size_t place_patches = 5;
   std::size_t views = 8;  ///< patches about the candidate that it is compared with
   std::size_t candidates = 2;
+  double least_search_score = 0.6;
   double least_score = 0.62;  ///< inlier share of an alignment
   double most_contradicted = 0.12;
 };
