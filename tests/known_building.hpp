@@ -16,6 +16,19 @@ inline std::vector<Segment> building() {
           {{2, 1}, {2.5, 1}}, {{2.5, 1}, {2.5, 1.6}}, {{12, 1}, {12, 1.8}}};
 }
 
+/// A corridor that leads round a block of 26 m by 16 m, with a few pillars and niches.
+inline std::vector<Segment> ring() {
+  return {{{0, 0}, {30, 0}},        {{30, 0}, {30, 8}},      {{30, 8}, {31, 8}},     {{31, 8}, {31, 9.5}},
+          {{31, 9.5}, {30, 9.5}},   {{30, 9.5}, {30, 20}},   {{30, 20}, {12, 20}},   {{12, 20}, {12, 21}},
+          {{12, 21}, {9, 21}},      {{9, 21}, {9, 20}},      {{9, 20}, {0, 20}},     {{0, 20}, {0, 0}},
+          {{2, 2}, {28, 2}},        {{28, 2}, {28, 18}},     {{28, 18}, {2, 18}},    {{2, 18}, {2, 2}},
+          {{6, 0}, {6, 0.5}},       {{6, 0.5}, {6.6, 0.5}},  {{6.6, 0.5}, {6.6, 0}}, {{0, 13}, {0.5, 13}},
+          {{0.5, 13}, {0.5, 12.2}}, {{0.5, 12.2}, {0, 12.2}}};
+}
+inline std::vector<Vector2d> round_the_ring() {
+  return {{1.1, 1.1}, {29, 1.1}, {29, 19}, {1.1, 19}};
+}
+
 struct Drive {
   std::vector<Event> events;
   std::vector<Pose2> truth;  ///< a scan
@@ -27,8 +40,9 @@ inline std::vector<Vector2d> through_all_rooms() {
 }
 
 /// Laps from stop to stop with noisy odometry: a scan about every 5 cm or 4 degrees.
-inline Drive drive(int laps, std::uint64_t seed, const std::vector<Vector2d>& stops = through_all_rooms()) {
-  const RayCaster walls(building());
+inline Drive drive(int laps, std::uint64_t seed, const std::vector<Vector2d>& stops = through_all_rooms(),
+                   const std::vector<Segment>& segments = building()) {
+  const RayCaster walls(segments);
   Random random(seed);
   Drive result;
   Pose2 T_world_robot{stops[0].x(), stops[0].y(), 0};

@@ -82,14 +82,14 @@ LapsResult drive(const World& world, std::uint64_t seed, bool closures) {
 }
 
 /// In a process of its own, whose memory is this run's alone.
-Result<LapsResult> drive_alone(const World& world, std::uint64_t seed) {
+Result<LapsResult> drive_alone(const World& world, std::uint64_t seed, bool closures) {
   static_assert(std::is_trivially_copyable_v<LapsResult>);
   int ends[2] = {};
   if (pipe(ends) != 0) return fail("no pipe to a process of its own");
   const pid_t child = fork();
   if (child < 0) return fail("no process of its own");
   if (child == 0) {
-    const LapsResult result = drive(world, seed);
+    const LapsResult result = drive(world, seed, closures);
     const bool told = write(ends[1], &result, sizeof result) == static_cast<ssize_t>(sizeof result);
     _exit(told ? 0 : 1);
   }
@@ -149,11 +149,11 @@ Outcome spiral(const LapsResult& r) {
           {}};
 }
 
-ExperimentCase make_case(const std::string& world_name, Outcome (*judge)(const LapsResult&)) {
+ExperimentCase make_case(const std::string& world_name, Outcome (*judge)(const LapsResult&), bool closures) {
   return {world_name, true, "", [=](std::uint64_t seed) -> Result<Outcome> {
             const Result<World> world = load_world(world_name);
             if (!world) return tl::unexpected(world.error());
-            const Result<LapsResult> result = drive_alone(*world, seed);
+            const Result<LapsResult> result = drive_alone(*world, seed, closures);
             if (!result) return tl::unexpected(result.error());
             Outcome outcome = judge(*result);
             if (seed == 1) outcome.pictures.push_back(draw_growth(world_name, *result));
@@ -186,8 +186,8 @@ Experiment laps_experiment() {
   e.seeds = 20;
   e.quick_seeds = 1;
   e.cases = [](const ExperimentOptions&) {
-    return std::vector<ExperimentCase>{make_case("branch", repeated), make_case("room", repeated),
-                                       make_case("loop", spiral)};
+    return std::vector<ExperimentCase>{make_case("branch", repeated, true), make_case("room", repeated, true),
+                                       make_case("loop", spiral, false)};
   };
   return e;
 }

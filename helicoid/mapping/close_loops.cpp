@@ -16,6 +16,8 @@ namespace {
 /// Along a robot's way; patches nearer than this are one stretch, metres.
 constexpr double kStretch = 4;
 constexpr int kMinCorrespondences = 40;
+/// Patches that are to be related lie this near, metres.
+constexpr double kNear = 3;
 
 LocalMap local_map_about(const MapInProgress& progress, PatchId anchor, const MapperOptions& options) {
   BoundOptions bound = bound_options(progress.map.patch(anchor), options.reference_position, options.reference_heading,
@@ -59,11 +61,11 @@ std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<con
 }
 
 /// True if an older patch lies about b that b is not tied to: without one nothing can be induced.
-bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along, double radius) {
+bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along) {
   const Vector2d place = map.T_plane_patch(b).translation();
   for (std::size_t i = 0; i < b.index(); ++i) {
     const PatchId id = make_id<PatchId>(i);
-    if ((map.T_plane_patch(id).translation() - place).squaredNorm() > radius * radius) continue;
+    if ((map.T_plane_patch(id).translation() - place).squaredNorm() > kNear * kNear) continue;
     if (map.island_of(id) == map.island_of(b) && !is_tied_to_stretch(map, b, id, along)) return true;
   }
   return false;
@@ -72,7 +74,7 @@ bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along,
 /// Step 3 of IV-B for one patch of the queue.
 std::vector<PatchId> induce_at(MapInProgress& progress, PatchId b, std::span<const double> along,
                                const MapperOptions& options) {
-  if (!has_untied_ground(progress.map, b, along, options.local_radius)) return {};
+  if (!has_untied_ground(progress.map, b, along)) return {};
   LocalMap local = local_map_about(progress, b, options);
   std::erase_if(local, [&](const LocalPatch& p) {
     return p.patch.value >= b.value || is_tied_to_stretch(progress.map, b, p.patch, along);
@@ -128,6 +130,22 @@ std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> be
   return touched;
 }
 
+/// Ties what the entries say, fits, and relates what has become related until nothing is induced any more.
+void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
+            const MapperOptions& options) {
+  constexpr int kRounds = 10;
+  std::vector<PatchId> touched;
+  for (const std::size_t entry : entries) {
+    const std::vector<PatchId> tied = tie(progress, closer.ledger()[entry], options);
+    touched.insert(touched.end(), tied.begin(), tied.end());
+  }
+  for (int round = 0; round < kRounds && !touched.empty(); ++round) {
+    fit_islands(progress.map, progress.editor);
+    progress.graph = information_graph(progress.map);
+    touched = induce(progress, touched, closer.along(), options);
+  }
+}
+
 }  // namespace
 
 void MapInProgress::add(const Relation& relation) {
@@ -138,34 +156,25 @@ void MapInProgress::add(const Relation& relation) {
 
 bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const LocalMap& known,
                  const MapperOptions& options) {
-  constexpr int kRounds = 10;
-  std::vector<PatchId> touched;
-  for (const std::size_t entry : closer.observe(progress.map, progress.graph, b, known)) {
-    const std::vector<PatchId> tied = tie(progress, closer.ledger()[entry], options);
-    touched.insert(touched.end(), tied.begin(), tied.end());
-  }
-  if (touched.empty()) return false;
-  for (int round = 0; round < kRounds && !touched.empty(); ++round) {
-    fit_islands(progress.map, progress.editor);
-    progress.graph = information_graph(progress.map);
-    touched = induce(progress, touched, closer.along(), options);
-  }
-  return true;
+  const std::vector<std::size_t> accepted = closer.observe(progress.map, progress.graph, b, known);
+  act_on(progress, closer, accepted, options);
+  return !accepted.empty();
 }
 
 void close_loops_again(MapInProgress& progress, LoopCloser& closer, const MapperOptions& options) {
-  constexpr int kPasses = 3;
-  // By now the map is nearly right: what overlaps lies near, metres.
-  constexpr double kNear = 3;
-  bool changed = true;
-  for (int pass = 0; pass < kPasses && changed; ++pass) {
-    changed = false;
-    closer.start_again();
+  constexpr int kPasses = 2;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    closer.start_again(progress.map);
+    std::vector<std::size_t> accepted;
     for (std::size_t i = 0; i < progress.map.patch_count(); ++i) {
       const PatchId b = make_id<PatchId>(i);
-      if (!closer.is_due(progress.map, b) || !has_untied_ground(progress.map, b, closer.along(), kNear)) continue;
-      changed = close_loops(progress, closer, b, local_map_about(progress, b, options), options) || changed;
+      if (!closer.is_due(progress.map, b) || !has_untied_ground(progress.map, b, closer.along())) continue;
+      const std::vector<std::size_t> now =
+          closer.observe(progress.map, progress.graph, b, local_map_about(progress, b, options));
+      accepted.insert(accepted.end(), now.begin(), now.end());
     }
+    if (accepted.empty()) return;
+    act_on(progress, closer, accepted, options);
   }
 }
 

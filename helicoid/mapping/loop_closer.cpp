@@ -24,21 +24,23 @@ double disagreement(const UncertainPose2& first, const UncertainPose2& second) {
 
 }  // namespace
 
-void LoopCloser::extend_way(const Map& map, PatchId b) {
-  const std::size_t robot = map.patch(b).robot.index();
-  if (last_of_robot_.size() <= robot) {
-    last_of_robot_.resize(robot + 1);
-    searched_at_.resize(robot + 1, 0);
+void LoopCloser::follow_ways(const Map& map) {
+  while (along_.size() < map.patch_count()) {
+    const PatchId b = make_id<PatchId>(along_.size());
+    const std::size_t robot = map.patch(b).robot.index();
+    if (last_of_robot_.size() <= robot) {
+      last_of_robot_.resize(robot + 1);
+      searched_at_.resize(robot + 1, 0);
+    }
+    const PatchId last = last_of_robot_[robot];
+    const Pose2 step = last.valid() ? map.T_plane_patch(last).inverse() * map.T_plane_patch(b) : Pose2{};
+    along_.push_back(last.valid() ? along_[last.index()] + step.distance() : 0);
+    last_of_robot_[robot] = b;
   }
-  along_.resize(b.index() + 1, 0);
-  const PatchId last = last_of_robot_[robot];
-  if (last.valid()) {
-    along_[b.index()] = along_[last.index()] + (map.T_plane_patch(last).inverse() * map.T_plane_patch(b)).distance();
-  }
-  last_of_robot_[robot] = b;
 }
 
-void LoopCloser::start_again() {
+void LoopCloser::start_again(const Map& map) {
+  follow_ways(map);
   std::fill(searched_at_.begin(), searched_at_.end(), -HUGE_VAL);
 }
 
@@ -48,7 +50,7 @@ bool LoopCloser::is_due(const Map& map, PatchId b) const {
 
 std::vector<std::size_t> LoopCloser::observe(const Map& map, const InformationGraph& graph, PatchId b,
                                              const LocalMap& known) {
-  if (b.index() >= along_.size()) extend_way(map, b);
+  follow_ways(map);
   if (!is_due(map, b)) return {};
   searched_at_[map.patch(b).robot.index()] = along_[b.index()];
   BoundOptions everything = bound_options(map.patch(b), 1e3, 1e3, 1e9);

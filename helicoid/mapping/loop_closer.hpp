@@ -7,7 +7,7 @@ namespace helicoid {
 
 struct LoopCloserOptions {
   LookAlikeOptions look_alike;
-  double search_spacing = 1.5;     ///< a robot looks for look-alikes this often along its way, metres
+  double search_spacing = 2;       ///< a robot looks for look-alikes this often along its way, metres
   double consistent = 11.345;      ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
   std::size_t memory = 60;         ///< entries back that may support a new one
   std::size_t least_agreeing = 3;  ///< hypotheses of different patches that must agree
@@ -25,7 +25,7 @@ class LoopCloser {
   std::vector<std::size_t> observe(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known);
 
   /// Lets every patch be looked at once more, from the first on.
-  void start_again();
+  void start_again(const Map& map);
   /// True if the robot has gone on far enough since the last search for another one at this patch.
   [[nodiscard]] bool is_due(const Map& map, PatchId b) const;
 
@@ -34,7 +34,7 @@ class LoopCloser {
   [[nodiscard]] std::span<const double> along() const { return along_; }
 
  private:
-  void extend_way(const Map& map, PatchId b);
+  void follow_ways(const Map& map);
   std::vector<std::size_t> find_support(const Map& map, const InformationGraph& graph,
                                         std::span<const BoundedPose> about_b, std::size_t entry) const;
   [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing) const;
