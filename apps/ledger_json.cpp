@@ -19,7 +19,7 @@ Json entry_json(const Map& map, const Hypothesis& h, std::size_t id) {
   const Pose2& T = h.T_a_b.T_a_b;
   return {{"id", id},
           {"state", name_of(h.state)},
-          {"source", "lookalike"},
+          {"source", name_of(h.source)},
           {"a", place_json(map, h.a)},
           {"b", place_json(map, h.b)},
           {"T_a_b", {T.x, T.y, T.yaw}},
@@ -30,7 +30,9 @@ Json entry_json(const Map& map, const Hypothesis& h, std::size_t id) {
           {"supports", h.supports},
           {"conflicts", Json::array()},
           {"reason", h.reason},
-          {"decided_by", h.state == HypothesisState::open ? Json() : Json("evidence")},
+          {"decided_by", h.state == HypothesisState::open
+                             ? Json()
+                             : Json(h.source == HypothesisSource::sighting ? "sighting" : "evidence")},
           {"event", map.patch(h.b).scan_index}};
 }
 

@@ -61,8 +61,8 @@ void collect_skipped(MapRun& run, MergedLogs& logs) {
   add("scan that matched nothing; placed by odometry", counts.predicted - counts.empty_scans);
   add("scan without odometry; constant velocity used instead", counts.scans_without_odometry);
   add("sighting of an unknown robot, kept as unidentified", counts.unidentified_sightings);
+  add("sighting that does not determine how two islands lie, kept open", counts.sightings_left);
   add("sighting of the robot itself", counts.self_sightings);
-  add("sighting, not used yet", counts.sightings);
 }
 
 /// Makes the logs' robots and their lasers known to the mapper.
@@ -130,11 +130,11 @@ Result<MapRun> run_map(const MapJob& job) {
   run.mapper = Mapper(job.mapper);
   if (auto added = add_robots(job, *logs, run); !added) return tl::unexpected(added.error());
   map_events(job, *logs, run);
-  collect_skipped(run, *logs);
   const double mapping = std::accumulate(run.scan_seconds.begin(), run.scan_seconds.end(), 0.0);
   run.phase.match = mapping - run.mapper.times().close_s;
   run.phase.read = thread_cpu_seconds() - start - mapping;
   run.mapper.finish();
+  collect_skipped(run, *logs);
   run.phase.fit = run.mapper.times().fit_s;
   run.phase.close = run.mapper.times().close_s;
   if (run.scans == 0) return fail("no scan was mapped: the logs hold none in the range that was asked for");

@@ -3,7 +3,8 @@
 namespace helicoid {
 
 double information_divisor(const Map& map, const Relation& relation) {
-  return relation.kind == RelationKind::odometry ? 1 : map.patch(relation.b).laser.kappa;
+  const bool single = relation.kind == RelationKind::odometry || relation.kind == RelationKind::sighting;
+  return single ? 1 : map.patch(relation.b).laser.kappa;
 }
 
 InformationGraph information_graph(const Map& map) {

@@ -7,8 +7,8 @@
 
 namespace helicoid {
 
-/// By what a relation's information is divided: beams are not independent (kappa of the laser); odometry is one
-/// measurement.
+/// By what a relation's information is divided: beams are not independent (kappa of the laser); odometry and
+/// sightings are single measurements.
 [[nodiscard]] double information_divisor(const Map& map, const Relation& relation);
 
 /// The honest information of every related pair, at the map's poses; a pose's number is its patch's id.

@@ -57,6 +57,14 @@ RelationId MapEditor::add_relation(const Relation& relation) {
   return id;
 }
 
+void MapEditor::merge_islands(IslandId into, IslandId from, const Pose2& T_into_from) {
+  for (std::size_t i = 0; i < map_.patches_.size(); ++i) {
+    if (map_.island_of_[i] != from) continue;
+    map_.island_of_[i] = into;
+    map_.poses_[i] = T_into_from * map_.poses_[i];
+  }
+}
+
 void MapEditor::append_scan(RobotId robot, const TrackedScan& scan) {
   map_.robots_[robot.index()].trajectory.push_back(scan);
 }

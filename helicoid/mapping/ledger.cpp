@@ -12,4 +12,13 @@ const char* name_of(HypothesisState state) {
   return "unknown";
 }
 
+const char* name_of(HypothesisSource source) {
+  switch (source) {
+    case HypothesisSource::lookalike: return "lookalike";
+    case HypothesisSource::sighting: return "sighting";
+    case HypothesisSource::operator_: return "operator";
+  }
+  return "unknown";
+}
+
 }  // namespace helicoid

@@ -13,9 +13,13 @@ namespace helicoid {
 enum class HypothesisState : std::uint8_t { open, accepted, rejected, distinct };
 [[nodiscard]] const char* name_of(HypothesisState state);
 
+enum class HypothesisSource : std::uint8_t { lookalike, sighting, operator_ };
+[[nodiscard]] const char* name_of(HypothesisSource source);
+
 /// Patch b was perhaps taken where patch a lies.
 struct Hypothesis {
   HypothesisState state = HypothesisState::open;
+  HypothesisSource source = HypothesisSource::lookalike;
   PatchId a, b;                       ///< a < b
   UncertainPose2 T_a_b;               ///< as aligned
   double score = 0;                   ///< share of b's points that lie on a's surfaces

@@ -29,6 +29,7 @@ class LoopCloser {
   /// True if the robot has gone on far enough since the last search for another one at this patch.
   [[nodiscard]] bool is_due(const Map& map, PatchId b) const;
 
+  void record(Hypothesis entry) { ledger_.push_back(std::move(entry)); }
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
   /// How far along its robot's way each patch was kept, metres.
   [[nodiscard]] std::span<const double> along() const { return along_; }

@@ -5,6 +5,7 @@
 
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/fit_islands.hpp"
+#include "helicoid/mapping/join_islands.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 #include "helicoid/mapping/relate.hpp"
@@ -85,15 +86,30 @@ bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignme
   return uncovered_share(map, robot.local, T_anchor_robot, scan, laser) > options.new_ground_share;
 }
 
-void Mapper::State::count(const Event& event, const Sighting& sighting) {
+void Mapper::State::take(const Event& event, const Sighting& sighting) {
   const std::string& self = map.robot(event.robot).name;
-  const auto is_named = [&](const RobotRecord& r) { return r.name == sighting.observed; };
   if (sighting.observed == self) {
     ++counts.self_sightings;
-  } else if (std::none_of(map.robots().begin(), map.robots().end(), is_named)) {
+    return;
+  }
+  const auto observed = std::find_if(map.robots().begin(), map.robots().end(),
+                                     [&](const RobotRecord& r) { return r.name == sighting.observed; });
+  if (observed == map.robots().end()) {
     ++counts.unidentified_sightings;
-  } else {
-    ++counts.sightings;
+    return;
+  }
+  ++counts.sightings;
+  sightings.add(event.robot, make_id<RobotId>(static_cast<std::size_t>(observed - map.robots().begin())), event.stamp,
+                sighting);
+}
+
+void Mapper::State::join_what_is_determined(bool last) {
+  while (const std::optional<IslandJoin> join = sightings.find_join(map, last)) {
+    const double began = thread_seconds();
+    MapInProgress progress{map, editor, graph};
+    join_islands(progress, closer, *join, options);
+    for (RobotState& robot : robots) robot.stale = true;
+    times.close_s += thread_seconds() - began;
   }
 }
 
@@ -184,13 +200,19 @@ RobotId Mapper::add_robot(const std::string& name, const std::vector<LaserModel>
 }
 
 Step Mapper::process(const Event& event) {
-  if (const auto* scan = std::get_if<Scan>(&event.body)) return state_->step(event, *scan);
-  if (const auto* sighting = std::get_if<Sighting>(&event.body)) state_->count(event, *sighting);
+  if (const auto* scan = std::get_if<Scan>(&event.body)) {
+    const Step step = state_->step(event, *scan);
+    state_->join_what_is_determined(false);
+    return step;
+  }
+  if (const auto* sighting = std::get_if<Sighting>(&event.body)) state_->take(event, *sighting);
   return {};
 }
 
 void Mapper::finish() {
   State& s = *state_;
+  s.join_what_is_determined(true);
+  s.counts.sightings_left = s.sightings.left();
   if (s.patches_at_last_fit == s.map.patch_count()) return;
   s.patches_at_last_fit = s.map.patch_count();
   const double began = thread_seconds();

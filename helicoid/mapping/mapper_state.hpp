@@ -5,6 +5,7 @@
 #include "helicoid/mapping/close_loops.hpp"
 #include "helicoid/mapping/mapper.hpp"
 #include "helicoid/mapping/robot_state.hpp"
+#include "helicoid/mapping/sighting_log.hpp"
 
 namespace helicoid {
 
@@ -16,6 +17,7 @@ struct Mapper::State {
   MapEditor editor;
   InformationGraph graph;
   LoopCloser closer;
+  SightingLog sightings;
   std::vector<RobotState> robots;
   MapperCounts counts;
   MapperTimes times;
@@ -29,7 +31,8 @@ struct Mapper::State {
                              const LaserModel& laser);
   bool is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan, std::size_t points,
                         const LaserModel& laser) const;
-  void count(const Event& event, const Sighting& sighting);
+  void take(const Event& event, const Sighting& sighting);
+  void join_what_is_determined(bool last);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched);
   void relate_to_last(RobotState& robot, PatchId id);
   void look_for_loops(PatchId id, const LocalMap& known);

@@ -1,0 +1,12 @@
+// Makes one island of two (paper IV-C): a rigid alignment, one relation, and then whatever is induced.
+#pragma once
+
+#include "helicoid/mapping/close_loops.hpp"
+#include "helicoid/mapping/island_join.hpp"
+
+namespace helicoid {
+
+/// The island with fewer patches moves. The ledger tells of it.
+void join_islands(MapInProgress& progress, LoopCloser& closer, const IslandJoin& join, const MapperOptions& options);
+
+}  // namespace helicoid
