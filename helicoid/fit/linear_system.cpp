@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "helicoid/fit/tie_blocks.hpp"
+
 namespace helicoid {
 
 namespace {
@@ -13,45 +15,6 @@ Adjacency adjacency_of(const RelationGraph& graph) {
     if (r.a != kWorld) pairs.emplace_back(static_cast<std::int32_t>(r.a), static_cast<std::int32_t>(r.b));
   }
   return find_adjacency(static_cast<std::int32_t>(graph.poses.size()), pairs);
-}
-
-/// M J for the derivative J = [-1 0 y; 0 -1 -x; 0 0 -1] of (t_x, t_y, phi) by the twist of a.
-Matrix3d times_by_first(const Matrix3d& M, const RelativePose& T) {
-  Matrix3d result;
-  for (int i = 0; i < 3; ++i) {
-    result(i, 0) = -M(i, 0);
-    result(i, 1) = -M(i, 1);
-    result(i, 2) = T.y * M(i, 0) - T.x * M(i, 1) - M(i, 2);
-  }
-  return result;
-}
-
-/// And for that by the twist of b, [c -s 0; s c 0; 0 0 1].
-Matrix3d times_by_second(const Matrix3d& M, const RelativePose& T) {
-  Matrix3d result;
-  for (int i = 0; i < 3; ++i) {
-    result(i, 0) = T.cosine * M(i, 0) + T.sine * M(i, 1);
-    result(i, 1) = T.cosine * M(i, 1) - T.sine * M(i, 0);
-    result(i, 2) = M(i, 2);
-  }
-  return result;
-}
-
-void drop_heading(Matrix3d& H, Vector3d& g) {
-  H.row(2).setZero();
-  H.col(2).setZero();
-  g[2] = 0;
-}
-
-/// The loss on the excess over what the relation costs at its best.
-void soften(const GraphRelation& r, const RobustLoss& loss, PairExpansion& pair) {
-  if (loss.kind == LossKind::quadratic || !r.may_be_wrong) return;
-  const auto* form = std::get_if<Correspondences>(&r.measurement);
-  const double least = form != nullptr ? form->scale * form->least_cost : 0;
-  const Loss softened = evaluate(loss, std::max(0.0, 2 * (pair.cost - least)));
-  pair.cost = least + 0.5 * softened.value;
-  pair.gradient *= softened.weight;
-  pair.information *= softened.weight;
 }
 
 }  // namespace
@@ -161,16 +124,7 @@ void LinearSystem::add(const Tie& tie, const PairExpansion& pair, const Relative
   using Segment = Eigen::Map<Vector3d>;
   const bool a_moves = tie.a >= 0 && !is_fixed_[static_cast<std::size_t>(tie.a)];
   const bool b_moves = !is_fixed_[static_cast<std::size_t>(tie.b)];
-  // J^T M = (M^T J)^T, and the information is symmetric.
-  Matrix3d W_a = times_by_first(pair.information, T_a_b);
-  Matrix3d W_b = times_by_second(pair.information, T_a_b);
-  const Vector3d& g = pair.gradient;
-  Vector3d g_a(-g[0], -g[1], T_a_b.y * g[0] - T_a_b.x * g[1] - g[2]);
-  Vector3d g_b(T_a_b.cosine * g[0] + T_a_b.sine * g[1], T_a_b.cosine * g[1] - T_a_b.sine * g[0], g[2]);
-  Matrix3d H_aa = times_by_first(W_a.transpose(), T_a_b);
-  Matrix3d H_bb = times_by_second(W_b.transpose(), T_a_b);
-  // Row a, column b.
-  Matrix3d H_ab = times_by_second(W_a.transpose(), T_a_b);
+  auto [H_aa, H_bb, H_ab, g_a, g_b] = tie_blocks(pair, T_a_b);
   if (!has_no_heading_.empty()) {
     if (tie.a >= 0 && has_no_heading_[static_cast<std::size_t>(tie.a)]) drop_heading(H_aa, g_a), H_ab.row(2).setZero();
     if (has_no_heading_[static_cast<std::size_t>(tie.b)]) drop_heading(H_bb, g_b), H_ab.col(2).setZero();
