@@ -9,5 +9,6 @@ namespace helicoid {
 [[nodiscard]] Experiment crispness_experiment();
 [[nodiscard]] Experiment laps_experiment();
 [[nodiscard]] Experiment outliers_experiment();
+[[nodiscard]] Experiment playback_experiment();
 
 }  // namespace helicoid

@@ -31,6 +31,8 @@ class CliqueTree {
  public:
   /// A new node, in no clique.
   void add_node() { clique_of_.push_back(-1), loose_at_.push_back(-1), changed_.push_back(0); }
+  /// Whether the node is in a clique.
+  [[nodiscard]] bool holds(std::int32_t node) const { return clique_of_[node] >= 0; }
 
   /// Marks the cliques that a change of this node concerns; gives the work of eliminating those that were not marked
   /// yet, in multiplications.

@@ -1,0 +1,218 @@
+#include "helicoid/fit/incremental_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "helicoid/fit/tie_blocks.hpp"
+
+namespace helicoid {
+
+std::uint32_t IncrementalFit::add_pose(const Pose2& start, bool is_landmark) {
+  const auto node = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({start, std::cos(start.yaw), std::sin(start.yaw), {}, is_landmark, false, false});
+  poses_.push_back(start);
+  delta_.insert(delta_.end(), kBlock, 0.0);
+  index_.push_back(-1);
+  tree_.add_node();
+  loose_.push_back(static_cast<std::int32_t>(node));
+  return node;
+}
+
+std::uint32_t IncrementalFit::add_relation(const GraphRelation& relation) {
+  const auto id = static_cast<std::uint32_t>(relations_.size());
+  relations_.push_back(relation);
+  is_removed_.push_back(false);
+  for (const std::uint32_t node : {relation.a, relation.b}) {
+    if (node == kWorld) continue;
+    nodes_[node].relations.push_back(id);
+    touched_.push_back(node);
+  }
+  return id;
+}
+
+void IncrementalFit::remove_relation(std::uint32_t relation) {
+  is_removed_[relation] = true;
+  for (const std::uint32_t node : {relations_[relation].a, relations_[relation].b}) {
+    if (node == kWorld) continue;
+    std::erase(nodes_[node].relations, relation);
+    touched_.push_back(node);
+  }
+}
+
+void IncrementalFit::remove_pose(std::uint32_t node) {
+  const std::vector<std::uint32_t> relations = nodes_[node].relations;
+  for (const std::uint32_t r : relations) remove_relation(r);
+  nodes_[node].is_removed = true;
+  touched_.push_back(node);
+}
+
+void IncrementalFit::hold(std::uint32_t node, bool is_held) {
+  nodes_[node].is_held = is_held;
+  linearise_here(node);
+  claim_around(node);
+}
+
+void IncrementalFit::linearise_here(std::uint32_t node) {
+  const Pose2& pose = poses_[node];
+  nodes_[node].linearised_at = pose;
+  nodes_[node].cosine = std::cos(pose.yaw);
+  nodes_[node].sine = std::sin(pose.yaw);
+  std::fill_n(delta_.begin() + kBlock * static_cast<std::ptrdiff_t>(node), kBlock, 0.0);
+}
+
+/// Every relation of the node is linearised anew: so its neighbours' rows change, too.
+void IncrementalFit::claim_around(std::uint32_t node) {
+  tree_.claim(static_cast<std::int32_t>(node));
+  for (const std::uint32_t r : nodes_[node].relations) {
+    const std::uint32_t other = relations_[r].a == node ? relations_[r].b : relations_[r].a;
+    if (other != kWorld) tree_.claim(static_cast<std::int32_t>(other));
+  }
+}
+
+void IncrementalFit::relinearise(IncrementalStep& step) {
+  std::vector<std::pair<double, std::uint32_t>> far;
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    const double* twist = delta_.data() + kBlock * static_cast<std::size_t>(node);
+    const double distance = std::max({std::abs(twist[0]), std::abs(twist[1]), std::abs(twist[2])});
+    if (distance > options_.relinearise_beyond) far.emplace_back(-distance, node);
+  }
+  std::sort(far.begin(), far.end());
+  double work = 0;
+  for (const auto& [unused, node] : far) {
+    double more = tree_.work_to_claim(static_cast<std::int32_t>(node));
+    for (const std::uint32_t r : nodes_[node].relations) {
+      const std::uint32_t other = relations_[r].a == node ? relations_[r].b : relations_[r].a;
+      if (other != kWorld) more = std::max(more, tree_.work_to_claim(static_cast<std::int32_t>(other)));
+    }
+    if (step.relinearised > 0 && work + more > options_.most_work) continue;
+    work += more;
+    linearise_here(node);
+    claim_around(node);
+    ++step.relinearised;
+  }
+  step.waiting = far.size() - step.relinearised;
+}
+
+RelativePose IncrementalFit::relative(const GraphRelation& r) const {
+  static const Node world{};
+  const Node& a = r.a == kWorld ? world : nodes_[r.a];
+  const Node& b = nodes_[r.b];
+  const double dx = b.linearised_at.x - a.linearised_at.x;
+  const double dy = b.linearised_at.y - a.linearised_at.y;
+  return {a.cosine * dx + a.sine * dy, a.cosine * dy - a.sine * dx, b.linearised_at.yaw - a.linearised_at.yaw,
+          a.cosine * b.cosine + a.sine * b.sine, a.cosine * b.sine - a.sine * b.cosine};
+}
+
+void IncrementalFit::add(const GraphRelation& r, LooseSystem& system) const {
+  const RelativePose T_a_b = relative(r);
+  PairExpansion pair = expand(r.measurement, T_a_b);
+  soften(r, options_.loss, pair);
+  TieBlocks blocks = tie_blocks(pair, T_a_b);
+  const bool has_a = r.a != kWorld;
+  if (has_a && nodes_[r.a].is_landmark) drop_heading(blocks.aa, blocks.a), blocks.ab.row(2).setZero();
+  if (nodes_[r.b].is_landmark) drop_heading(blocks.bb, blocks.b), blocks.ab.col(2).setZero();
+  const bool a_moves = has_a && !nodes_[r.a].is_held;
+  const bool b_moves = !nodes_[r.b].is_held;
+  if (a_moves) {
+    system.diagonal[index_[r.a]] += blocks.aa;
+    system.gradient[index_[r.a]] += blocks.a;
+  }
+  if (b_moves) {
+    system.diagonal[index_[r.b]] += blocks.bb;
+    system.gradient[index_[r.b]] += blocks.b;
+  }
+  if (a_moves && b_moves) system.ties.push_back({index_[r.a], index_[r.b], blocks.ab});
+}
+
+LooseSystem IncrementalFit::linearise(std::vector<std::int32_t> nodes) {
+  LooseSystem system;
+  system.nodes = std::move(nodes);
+  system.diagonal.assign(system.nodes.size(), Matrix3d::Zero());
+  system.gradient.assign(system.nodes.size(), Vector3d::Zero());
+  for (std::size_t i = 0; i < system.nodes.size(); ++i) index_[system.nodes[i]] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < system.nodes.size(); ++i) {
+    const auto node = static_cast<std::uint32_t>(system.nodes[i]);
+    // A relation to a node that is in a clique still is part of what that clique passed on.
+    for (const std::uint32_t id : nodes_[node].relations) {
+      const GraphRelation& r = relations_[id];
+      if (r.b == node && (r.a == kWorld || index_[r.a] >= 0)) add(r, system);
+    }
+  }
+  for (std::size_t i = 0; i < system.nodes.size(); ++i) {
+    const Node& node = nodes_[system.nodes[i]];
+    if (node.is_held) system.diagonal[i].setIdentity();
+    if (node.is_landmark) system.diagonal[i](2, 2) = 1;
+    index_[system.nodes[i]] = -1;
+  }
+  system.last = static_cast<std::int32_t>(system.nodes.size()) - 1;
+  return system;
+}
+
+void IncrementalFit::move(std::span<const std::int32_t> nodes) {
+  for (const std::int32_t node : nodes) {
+    const double* twist = delta_.data() + kBlock * static_cast<std::size_t>(node);
+    poses_[node] = nodes_[node].linearised_at * exponential({twist[0], twist[1], twist[2]});
+  }
+}
+
+IncrementalStep IncrementalFit::update() {
+  IncrementalStep step;
+  for (const std::uint32_t node : touched_) tree_.claim(static_cast<std::int32_t>(node));
+  touched_.clear();
+  relinearise(step);
+  std::vector<std::int32_t> nodes = tree_.release();
+  nodes.insert(nodes.end(), loose_.begin(), loose_.end());
+  std::sort(nodes.begin(), nodes.end());
+  std::erase_if(nodes, [&](std::int32_t node) { return nodes_[node].is_removed; });
+  loose_.clear();
+  if (nodes.empty()) return step;
+  const LooseSystem system = linearise(std::move(nodes));
+  step.eliminated = system.nodes.size();
+  step.is_determined = tree_.eliminate(system);
+  for (const std::int32_t node : system.nodes) {
+    if (!tree_.holds(node)) loose_.push_back(node);
+  }
+  const std::vector<std::int32_t> moved = tree_.back_substitute(delta_, options_.propagate_beyond);
+  step.moved = moved.size();
+  move(moved);
+  return step;
+}
+
+FitResult IncrementalFit::solve_fully(const FitOptions& options) {
+  RelationGraph graph;
+  std::vector<std::uint32_t> held;
+  graph.poses = poses_;
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    graph.is_landmark.push_back(nodes_[node].is_landmark);
+    if (nodes_[node].is_held || nodes_[node].is_removed) held.push_back(node);
+  }
+  for (std::size_t r = 0; r < relations_.size(); ++r) {
+    if (!is_removed_[r]) graph.relations.push_back(relations_[r]);
+  }
+  FitOptions with_loss = options;
+  with_loss.loss = options_.loss;
+  FitResult result = fit(graph, held, with_loss);
+  poses_ = result.poses;
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    linearise_here(node);
+    tree_.claim(static_cast<std::int32_t>(node));
+  }
+  update();
+  return result;
+}
+
+double IncrementalFit::cost() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < relations_.size(); ++i) {
+    if (is_removed_[i]) continue;
+    const GraphRelation& r = relations_[i];
+    const Pose2 T_a_b = r.a == kWorld ? poses_[r.b] : poses_[r.a].inverse() * poses_[r.b];
+    PairExpansion pair = expand(r.measurement, RelativePose::of(T_a_b));
+    soften(r, options_.loss, pair);
+    sum += pair.cost;
+  }
+  return sum;
+}
+
+}  // namespace helicoid

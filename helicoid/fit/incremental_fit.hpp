@@ -1,0 +1,84 @@
+// A fit that follows a growing graph (incremental smoothing: Kaess et al. 2012): relations and poses that come and go
+// cost what they change. Each pose is linearised where it stood when it last moved far (fluid relinearisation); only the
+// part of the factor that a change concerns is eliminated again, and its solution is carried on as far as it matters.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "helicoid/fit/clique_tree.hpp"
+#include "helicoid/fit/fit_graph.hpp"
+
+namespace helicoid {
+
+struct IncrementalOptions {
+  double relinearise_beyond = 0.02;  ///< metres or radians from where a pose is linearised
+  double propagate_beyond = 1e-4;    ///< metres or radians: smaller changes are not carried on to other poses
+  /// Multiplications that a step may spend on relinearising; what is left waits for the next step, farthest moved first.
+  double most_work = 6e6;
+  RobustLoss loss;  ///< acts on relations that may be wrong
+};
+
+/// What one update did.
+struct IncrementalStep {
+  std::size_t eliminated = 0;    ///< poses
+  std::size_t relinearised = 0;  ///< poses
+  std::size_t waiting = 0;       ///< poses that should be relinearised and were not
+  std::size_t moved = 0;         ///< poses
+  bool is_determined = true;     ///< false: relations leave poses open; those stay where they are
+};
+
+/// The gauge is the caller's: some pose of every component is held, or tied to the world.
+class IncrementalFit {
+ public:
+  explicit IncrementalFit(const IncrementalOptions& options = {}) : options_(options) {}
+
+  /// `start` is T_plane_node. Poses are numbered as they come; so are relations.
+  std::uint32_t add_pose(const Pose2& start, bool is_landmark = false);
+  std::uint32_t add_relation(const GraphRelation& relation);
+  /// From the next update on it is as if it had never been. Once only.
+  void remove_relation(std::uint32_t relation);
+  /// With all its relations; its number is not given again.
+  void remove_pose(std::uint32_t node);
+  /// Holds a pose where it is, or lets it go.
+  void hold(std::uint32_t node, bool is_held = true);
+
+  /// One Gauss-Newton step on what has changed.
+  IncrementalStep update();
+  /// The fit of the whole graph, from where the poses are; for when the steps have gone astray, or must be exact.
+  FitResult solve_fully(const FitOptions& options = {});
+
+  /// T_plane_node as of the last update.
+  [[nodiscard]] std::span<const Pose2> poses() const { return poses_; }
+  /// Chi^2 / 2 of these poses, with the loss. Looks at every relation.
+  [[nodiscard]] double cost() const;
+
+ private:
+  struct Node {
+    Pose2 linearised_at;  ///< T_plane_node
+    double cosine = 1, sine = 0;
+    std::vector<std::uint32_t> relations;
+    bool is_landmark = false, is_held = false, is_removed = false;
+  };
+  void linearise_here(std::uint32_t node);
+  void claim_around(std::uint32_t node);
+  void relinearise(IncrementalStep& step);
+  [[nodiscard]] RelativePose relative(const GraphRelation& r) const;
+  [[nodiscard]] LooseSystem linearise(std::vector<std::int32_t> nodes);
+  void add(const GraphRelation& r, LooseSystem& system) const;
+  void move(std::span<const std::int32_t> nodes);
+
+  IncrementalOptions options_;
+  std::vector<Node> nodes_;
+  std::vector<Pose2> poses_;
+  std::vector<double> delta_;  ///< twist from where each node is linearised
+  std::vector<GraphRelation> relations_;
+  std::vector<bool> is_removed_;        ///< of each relation
+  std::vector<std::uint32_t> touched_;  ///< nodes whose relations changed
+  std::vector<std::int32_t> loose_;     ///< nodes that the last update left open
+  std::vector<std::int32_t> index_;     ///< of each node in the loose system; -1: not in it
+  CliqueTree tree_;
+};
+
+}  // namespace helicoid
