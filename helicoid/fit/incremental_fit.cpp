@@ -112,8 +112,9 @@ void IncrementalFit::add(const GraphRelation& r, LooseSystem& system) const {
   const bool has_a = r.a != kWorld;
   if (has_a && nodes_[r.a].is_landmark) drop_heading(blocks.aa, blocks.a), blocks.ab.row(2).setZero();
   if (nodes_[r.b].is_landmark) drop_heading(blocks.bb, blocks.b), blocks.ab.col(2).setZero();
-  const bool a_moves = has_a && !nodes_[r.a].is_held;
-  const bool b_moves = !nodes_[r.b].is_held;
+  // Of a relation to a node that is in a clique, that clique holds all but the share of the end that is loose.
+  const bool a_moves = has_a && !nodes_[r.a].is_held && index_[r.a] >= 0;
+  const bool b_moves = !nodes_[r.b].is_held && index_[r.b] >= 0;
   if (a_moves) {
     system.diagonal[index_[r.a]] += blocks.aa;
     system.gradient[index_[r.a]] += blocks.a;
@@ -133,10 +134,10 @@ LooseSystem IncrementalFit::linearise(std::vector<std::int32_t> nodes) {
   for (std::size_t i = 0; i < system.nodes.size(); ++i) index_[system.nodes[i]] = static_cast<std::int32_t>(i);
   for (std::size_t i = 0; i < system.nodes.size(); ++i) {
     const auto node = static_cast<std::uint32_t>(system.nodes[i]);
-    // A relation to a node that is in a clique still is part of what that clique passed on.
     for (const std::uint32_t id : nodes_[node].relations) {
       const GraphRelation& r = relations_[id];
-      if (r.b == node && (r.a == kWorld || index_[r.a] >= 0)) add(r, system);
+      // Once: from b where both ends are loose.
+      if (r.b == node || index_[r.b] < 0) add(r, system);
     }
   }
   for (std::size_t i = 0; i < system.nodes.size(); ++i) {
