@@ -13,10 +13,10 @@
 namespace helicoid {
 
 struct IncrementalOptions {
-  double relinearise_beyond = 0.02;  ///< metres or radians from where a pose is linearised
-  double propagate_beyond = 1e-4;    ///< metres or radians: smaller changes are not carried on to other poses
+  double relinearise_beyond = 0.05;  ///< metres or radians from where a pose is linearised
+  double propagate_beyond = 1e-3;    ///< metres or radians: smaller changes are not carried on to other poses
   /// Multiplications that a step may spend on relinearising; what is left waits for the next step, farthest moved first.
-  double most_work = 6e6;
+  double most_work = 1e7;
   RobustLoss loss;  ///< acts on relations that may be wrong
 };
 
