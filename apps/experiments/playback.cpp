@@ -30,21 +30,36 @@ Pose2 predict(const std::vector<GraphRelation>& step, std::uint32_t node, std::s
   return {};
 }
 
-/// The batch optimum of the poses so far, from the incremental poses or from dead reckoning's optimum, the lower.
-double batch_cost(const RelationGraph& so_far) {
-  return fit(so_far).final_cost;
-}
-
 struct Playback {
   double total_s = 0, worst_s = 0, worst_excess = 0, last_excess = 0;
   std::size_t worst_step = 0, waiting = 0, eliminated = 0, relinearised = 0, undetermined = 0;
 };
 
+/// What the incremental fit made of the first poses.
+struct Snapshot {
+  std::vector<Pose2> poses;
+  double cost = 0;
+};
+
+/// Holds the snapshots against batch fits: afterwards, so that no step finds the caches full of a judge's work.
+void judge(const std::vector<std::vector<GraphRelation>>& steps, const std::vector<Snapshot>& snapshots, Playback& p) {
+  RelationGraph so_far;
+  std::size_t node = 0;
+  for (const Snapshot& s : snapshots) {
+    for (; node < s.poses.size(); ++node)
+      so_far.relations.insert(so_far.relations.end(), steps[node].begin(), steps[node].end());
+    so_far.poses = s.poses;
+    // Chains that nothing contradicts cost nothing: a share of nothing says nothing.
+    p.last_excess = 100 * (s.cost / std::max(fit(so_far).final_cost, 1e-3) - 1);
+    p.worst_excess = std::max(p.worst_excess, p.last_excess);
+  }
+}
+
 Playback play(const RelationGraph& graph) {
   Playback p;
   const auto steps = steps_of(graph);
   IncrementalFit fitted;
-  RelationGraph so_far;
+  std::vector<Snapshot> snapshots;
   for (std::uint32_t node = 0; node < steps.size(); ++node) {
     double seconds = 0;
     {
@@ -61,17 +76,17 @@ Playback play(const RelationGraph& graph) {
     p.total_s += seconds;
     if (seconds > p.worst_s) p.worst_step = node;
     p.worst_s = std::max(p.worst_s, seconds);
-    so_far.relations.insert(so_far.relations.end(), steps[node].begin(), steps[node].end());
-    if (node % 100 != 0 || node == 0) continue;
-    so_far.poses.assign(fitted.poses().begin(), fitted.poses().end());
-    // Chains that nothing contradicts cost nothing: a share of nothing says nothing.
-    p.last_excess = 100 * (fitted.cost() / std::max(batch_cost(so_far), 1e-3) - 1);
-    p.worst_excess = std::max(p.worst_excess, p.last_excess);
+    const bool is_last = node + 1 == steps.size();
+    if (is_last || (node % 100 == 0 && node > 0)) {
+      snapshots.push_back({{fitted.poses().begin(), fitted.poses().end()}, fitted.cost()});
+    }
   }
+  judge(steps, snapshots, p);
   return p;
 }
 
-Result<Outcome> measure(const std::string& path) {
+/// `allowed_s`: CPU seconds for the whole graph.
+Result<Outcome> measure(const std::string& path, double allowed_s) {
   const Result<GraphFile> file = read_graph(path);
   if (!file) return tl::unexpected(file.error());
   const Playback p = play(file->graph);
@@ -81,6 +96,7 @@ Result<Outcome> measure(const std::string& path) {
                   {"worst_step_ms", 1e3 * p.worst_s},
                   {"worst_step_index", static_cast<double>(p.worst_step)},
                   {"total_cpu_s", p.total_s},
+                  {"share_of_allowed_cpu_percent", 100 * p.total_s / allowed_s},
                   {"per_pose_ms", 1e3 * p.total_s / count},
                   {"eliminated_a_step_count", static_cast<double>(p.eliminated) / count},
                   {"relinearised_a_step_count", static_cast<double>(p.relinearised) / count},
@@ -91,11 +107,12 @@ Result<Outcome> measure(const std::string& path) {
 
 std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
   std::vector<ExperimentCase> cases;
-  for (const char* name : {"manhattan", "city10000"}) {
+  const std::pair<const char*, double> graphs[] = {{"manhattan", 2.0}, {"city10000", 20.0}};
+  for (const auto& [name, allowed_s] : graphs) {
     if (options.quick && cases.size() == 1) break;
     const std::string path = options.data + "/posegraphs/" + name + ".g2o.gz";
     std::error_code error;
-    ExperimentCase c{name, false, "", [path](std::uint64_t) { return measure(path); }};
+    ExperimentCase c{name, false, "", [path, allowed = allowed_s](std::uint64_t) { return measure(path, allowed); }};
     if (options.data.empty() || !std::filesystem::exists(path, error))
       c.missing = fmt::format("the recorded graph posegraphs/{}.g2o.gz is not there; --data names its folder", name);
     cases.push_back(std::move(c));
@@ -112,13 +129,12 @@ Experiment playback_experiment() {
   e.method =
       "The poses of each recorded graph come one a step, each with all its relations to earlier poses and where the "
       "first "
-      "of those puts it. CPU time is taken of each step. At every hundredth step the cost is held against that of a "
-      "batch fit of the same relations from the same poses.";
+      "of those puts it. CPU time is taken of each step; all together may take 2 s for manhattan and 20 s for "
+      "city10000. At every hundredth step and the last the cost is held "
+      "against that of a batch fit of the same relations from the same poses.";
   e.bars = {{"worst_excess_cost_percent", std::nullopt, 1.0, false},
             {"worst_step_ms", std::nullopt, 20.0, false},
-            // 2 s for manhattan's 3500 poses, 20 s for city10000's 10 000.
-            {"total_cpu_s", std::nullopt, 20.0, false},
-            {"per_pose_ms", std::nullopt, 2.0, false}};
+            {"share_of_allowed_cpu_percent", std::nullopt, 100.0, false}};
   e.cases = list_cases;
   return e;
 }

@@ -105,8 +105,9 @@ void CliqueTree::add_child(const Clique& child, Clique& parent, const Eliminatio
       const std::int32_t row = std::max(rows[i], rows[j]);
       const bool in_panel = column < shape.first_below();
       const std::ptrdiff_t leading = in_panel ? shape.leading() : padded(shape.below);
-      double* target = in_panel ? parent.panel() + column * leading + row
-                                : parent.update() + (column - shape.first_below()) * leading + row - shape.first_below();
+      double* target = in_panel
+                           ? parent.panel() + column * leading + row
+                           : parent.update() + (column - shape.first_below()) * leading + row - shape.first_below();
       if (rows[i] >= rows[j]) {
         add_block(target, leading, block, from_leading);
       } else {
@@ -133,7 +134,8 @@ bool CliqueTree::eliminate_front(Elimination& e, std::int32_t supernode) {
   if (workspace_.size() < shape.workspace_size()) workspace_ = WorkMemory(2 * shape.workspace_size());
   bool is_positive = front_kernels().eliminate(shape, clique.panel(), clique.update(), workspace_.data());
   for (int i = 0; i < shape.pivots && is_positive; ++i) {
-    const double inverse = clique.panel()[static_cast<std::size_t>(i) * (static_cast<std::size_t>(shape.leading()) + 1)];
+    const double inverse =
+        clique.panel()[static_cast<std::size_t>(i) * (static_cast<std::size_t>(shape.leading()) + 1)];
     const Matrix3d& own = e.system->diagonal[e.supernodes.order[s.first + i / kBlock]];
     is_positive = 1 > kLeastPivot * inverse * inverse * own(i % kBlock, i % kBlock);
   }
@@ -181,7 +183,8 @@ bool CliqueTree::eliminate(const LooseSystem& system) {
     }
     is_whole = false;
     if (parent >= 0) e.has_failed[parent] = true;
-    for (const auto* list : {&e.children[k], &e.orphans[k]}) orphans_.insert(orphans_.end(), list->begin(), list->end());
+    for (const auto* list : {&e.children[k], &e.orphans[k]})
+      orphans_.insert(orphans_.end(), list->begin(), list->end());
   }
   for (const std::int32_t node : system.nodes) loose_at_[node] = -1;
   return is_whole;

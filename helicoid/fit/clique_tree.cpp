@@ -73,11 +73,12 @@ void CliqueTree::substitute(const Clique& clique, std::span<double> x, double to
   std::copy_n(clique.right(), shape.pivots, scratch_.data());
   for (const std::int32_t node : clique.below) below = std::copy_n(x.data() + kBlock * node, kBlock, below);
   front_kernels().backward(shape, clique.panel(), scratch_.data(), scratch_.data() + shape.first_below());
+  constexpr double reach[] = {1, 1, kTurnReach};
   const double* value = scratch_.data();
   for (const std::int32_t node : clique.pivots) {
     double* old = x.data() + kBlock * node;
     double change = 0;
-    for (int i = 0; i < kBlock; ++i) change = std::max(change, std::abs(value[i] - old[i]));
+    for (int i = 0; i < kBlock; ++i) change = std::max(change, reach[i] * std::abs(value[i] - old[i]));
     if (change > tolerance) {
       std::copy_n(value, kBlock, old);
       changed.push_back(node);

@@ -27,6 +27,9 @@ struct LooseSystem {
   std::int32_t last = -1;  ///< index of the node that is eliminated last, as it will change next; -1: any
 };
 
+/// Turns count as the move that they make at this distance, metres.
+inline constexpr double kTurnReach = 10;
+
 class CliqueTree {
  public:
   /// A new node, in no clique.

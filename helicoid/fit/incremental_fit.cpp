@@ -74,8 +74,10 @@ void IncrementalFit::relinearise(IncrementalStep& step) {
   std::vector<std::pair<double, std::uint32_t>> far;
   for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
     const double* twist = delta_.data() + kBlock * static_cast<std::size_t>(node);
-    const double distance = std::max({std::abs(twist[0]), std::abs(twist[1]), std::abs(twist[2])});
-    if (distance > options_.relinearise_beyond) far.emplace_back(-distance, node);
+    const double distance = std::max({std::abs(twist[0]) / options_.relinearise_move_beyond,
+                                      std::abs(twist[1]) / options_.relinearise_move_beyond,
+                                      std::abs(twist[2]) / options_.relinearise_turn_beyond});
+    if (distance > 1) far.emplace_back(-distance, node);
   }
   std::sort(far.begin(), far.end());
   double work = 0;

@@ -1,6 +1,7 @@
 // A fit that follows a growing graph (incremental smoothing: Kaess et al. 2012): relations and poses that come and go
-// cost what they change. Each pose is linearised where it stood when it last moved far (fluid relinearisation); only the
-// part of the factor that a change concerns is eliminated again, and its solution is carried on as far as it matters.
+// cost what they change. Each pose is linearised where it stood when it last moved far (fluid relinearisation); only
+// the part of the factor that a change concerns is eliminated again, and its solution is carried on as far as it
+// matters.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,12 @@
 namespace helicoid {
 
 struct IncrementalOptions {
-  double relinearise_beyond = 0.05;  ///< metres or radians from where a pose is linearised
-  double propagate_beyond = 1e-3;    ///< metres or radians: smaller changes are not carried on to other poses
-  /// Multiplications that a step may spend on relinearising; what is left waits for the next step, farthest moved first.
+  /// What bends a relation is a turn; of moves only their differences do, and neighbours move together.
+  double relinearise_turn_beyond = 0.003;  ///< radians from where a pose is linearised
+  double relinearise_move_beyond = 0.2;    ///< metres
+  double propagate_beyond = 1e-4;          ///< metres, turns at kTurnReach: smaller changes are not carried on
+  /// Multiplications that a step may spend on relinearising; what is left waits for the next step, farthest moved
+  /// first.
   double most_work = 1e7;
   RobustLoss loss;  ///< acts on relations that may be wrong
 };

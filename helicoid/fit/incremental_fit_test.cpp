@@ -1,0 +1,136 @@
+#include "helicoid/fit/incremental_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/base/random.hpp"
+
+namespace helicoid {
+
+namespace {
+
+PosePose noisy(const Pose2& T_a_b, Random& random) {
+  const Pose2 error{0.05 * random.normal(), 0.05 * random.normal(), 0.02 * random.normal()};
+  return {T_a_b * error, Vector3d(400, 400, 2500).asDiagonal()};
+}
+
+/// A robot that walks the streets of a grid and meets crossings again; each pose's relations to earlier ones.
+std::vector<std::vector<GraphRelation>> walk_on_grid(std::uint64_t seed, std::uint32_t poses) {
+  Random random(seed);
+  std::vector<Pose2> truth{{0, 0, 0}};
+  std::vector<std::vector<GraphRelation>> steps(poses);
+  for (std::uint32_t i = 1; i < poses; ++i) {
+    const double turn = i % 3 == 0 ? M_PI / 2 * (static_cast<double>(random.below(3)) - 1) : 0;
+    truth.push_back(truth.back() * Pose2{1, 0, turn});
+    steps[i].push_back({i - 1, i, noisy(truth[i - 1].inverse() * truth[i], random), false});
+    for (std::uint32_t k = 0; k + 10 < i; ++k) {
+      if (std::hypot(truth[k].x - truth[i].x, truth[k].y - truth[i].y) > 0.5 || random.below(3) > 0) continue;
+      steps[i].push_back({k, i, noisy(truth[k].inverse() * truth[i], random), true});
+    }
+  }
+  return steps;
+}
+
+struct Growing {
+  IncrementalFit fitted;
+  RelationGraph graph;  ///< the same for the batch fit
+
+  void grow(const std::vector<GraphRelation>& step) {
+    Pose2 start;
+    if (!step.empty()) start = fitted.poses()[step.front().a] * std::get<PosePose>(step.front().measurement).T_a_b;
+    const std::uint32_t node = fitted.add_pose(start);
+    if (node == 0) fitted.hold(0);
+    for (const GraphRelation& r : step) fitted.add_relation(r), graph.relations.push_back(r);
+    EXPECT_TRUE(fitted.update().is_determined);
+  }
+  double batch_cost() {
+    graph.poses.assign(fitted.poses().begin(), fitted.poses().end());
+    return fit(graph).final_cost;
+  }
+};
+
+double farthest(std::span<const Pose2> a, std::span<const Pose2> b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Pose2 d = a[i].inverse() * b[i];
+    most = std::max({most, std::abs(d.x), std::abs(d.y), std::abs(d.yaw)});
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST(IncrementalFit, AlongAGridTheCostIsTheBatchFitsToOnePercent) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Growing growing;
+    const auto steps = walk_on_grid(seed, 1000);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      growing.grow(steps[i]);
+      if (i % 100 != 99) continue;
+      EXPECT_LE(growing.fitted.cost(), 1.01 * growing.batch_cost() + 1e-3) << "step " << i;
+    }
+  }
+}
+
+TEST(IncrementalFit, RelationsThatAreRemovedLeaveTheMapThatNeverHadThem) {
+  Growing growing;
+  for (const auto& step : walk_on_grid(4, 400)) growing.grow(step);
+  std::vector<std::uint32_t> wrong;
+  for (std::uint32_t k = 0; k < 5; ++k) {
+    wrong.push_back(growing.fitted.add_relation({20 * k, 399 - 30 * k, PosePose{{3, 2, 1}, Matrix3d::Identity()}}));
+    growing.fitted.update();
+  }
+  for (const std::uint32_t relation : wrong) growing.fitted.remove_relation(relation);
+  for (int i = 0; i < 5; ++i) growing.fitted.update();
+  growing.graph.poses.assign(growing.fitted.poses().begin(), growing.fitted.poses().end());
+  const FitResult batch = fit(growing.graph);
+  EXPECT_LE(growing.fitted.cost(), 1.001 * batch.final_cost);
+  EXPECT_LT(farthest(growing.fitted.poses(), batch.poses), 0.01);
+}
+
+TEST(IncrementalFit, APoseThatIsRemovedTakesItsRelationsAlong) {
+  Growing growing;
+  const auto steps = walk_on_grid(5, 300);
+  for (const auto& step : steps) growing.grow(step);
+  growing.fitted.remove_pose(299);
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(growing.fitted.update().is_determined);
+  Growing shorter;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) shorter.grow(steps[i]);
+  for (int i = 0; i < 5; ++i) shorter.fitted.update();
+  EXPECT_LT(farthest(shorter.fitted.poses(), growing.fitted.poses().first(299)), 0.01);
+}
+
+TEST(IncrementalFit, WhatNothingTiesDownWaitsUntilSomethingDoes) {
+  IncrementalFit fitted;
+  fitted.hold(fitted.add_pose({0, 0, 0}));
+  fitted.add_pose({5, 5, 1});
+  EXPECT_FALSE(fitted.update().is_determined);
+  EXPECT_EQ(fitted.poses()[1], (Pose2{5, 5, 1}));
+  fitted.add_relation({0, 1, PosePose{{1, 0, 0}, Matrix3d::Identity()}});
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(fitted.update().is_determined || i > 0);
+  EXPECT_NEAR(fitted.poses()[1].x, 1, 1e-6);
+}
+
+TEST(IncrementalFit, AFullSolveGoesOnWithTheSameGraph) {
+  Growing growing;
+  const auto steps = walk_on_grid(6, 300);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    growing.grow(steps[i]);
+    if (i == 150) growing.fitted.solve_fully();
+  }
+  EXPECT_LE(growing.fitted.cost(), 1.01 * growing.batch_cost());
+  const FitResult full = growing.fitted.solve_fully();
+  EXPECT_EQ(full.status, FitStatus::converged);
+  EXPECT_NEAR(growing.fitted.cost(), full.final_cost, 1e-6 * full.final_cost);
+}
+
+TEST(IncrementalFit, StepsRepeatToTheBit) {
+  const auto steps = walk_on_grid(7, 400);
+  Growing first, second;
+  for (const auto& step : steps) first.grow(step), second.grow(step);
+  EXPECT_TRUE(std::equal(first.fitted.poses().begin(), first.fitted.poses().end(), second.fitted.poses().begin()));
+}
+
+}  // namespace helicoid
