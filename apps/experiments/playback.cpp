@@ -21,11 +21,11 @@ std::vector<std::vector<GraphRelation>> steps_of(const RelationGraph& graph) {
 }
 
 /// Where the first pose-pose relation to an earlier pose puts the new one.
-Pose2 predict(const std::vector<GraphRelation>& step, std::uint32_t node, std::span<const Pose2> poses) {
+Pose2 predict(const std::vector<GraphRelation>& step, std::uint32_t node, const IncrementalFit& fitted) {
   for (const GraphRelation& r : step) {
     const auto* m = std::get_if<PosePose>(&r.measurement);
     if (m == nullptr || r.a == kWorld) continue;
-    return r.b == node ? poses[r.a] * m->T_a_b : poses[r.b] * m->T_a_b.inverse();
+    return r.b == node ? fitted.pose(r.a) * m->T_a_b : fitted.pose(r.b) * m->T_a_b.inverse();
   }
   return {};
 }
@@ -64,7 +64,7 @@ Playback play(const RelationGraph& graph) {
     double seconds = 0;
     {
       const CpuTimer timer(seconds);
-      fitted.add_pose(predict(steps[node], node, fitted.poses()));
+      fitted.add_pose(predict(steps[node], node, fitted));
       if (node == 0) fitted.hold(0);
       for (const GraphRelation& r : steps[node]) fitted.add_relation(r);
       const IncrementalStep step = fitted.update();
@@ -78,7 +78,7 @@ Playback play(const RelationGraph& graph) {
     p.worst_s = std::max(p.worst_s, seconds);
     const bool is_last = node + 1 == steps.size();
     if (is_last || (node % 100 == 0 && node > 0)) {
-      snapshots.push_back({{fitted.poses().begin(), fitted.poses().end()}, fitted.cost()});
+      snapshots.push_back({fitted.poses(), fitted.cost()});
     }
   }
   judge(steps, snapshots, p);

@@ -11,7 +11,6 @@ namespace helicoid {
 std::uint32_t IncrementalFit::add_pose(const Pose2& start, bool is_landmark) {
   const auto node = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({start, std::cos(start.yaw), std::sin(start.yaw), {}, is_landmark, false, false});
-  poses_.push_back(start);
   delta_.insert(delta_.end(), kBlock, 0.0);
   index_.push_back(-1);
   tree_.add_node();
@@ -49,12 +48,11 @@ void IncrementalFit::remove_pose(std::uint32_t node) {
 
 void IncrementalFit::hold(std::uint32_t node, bool is_held) {
   nodes_[node].is_held = is_held;
-  linearise_here(node);
+  linearise_at(node, pose(node));
   claim_around(node);
 }
 
-void IncrementalFit::linearise_here(std::uint32_t node) {
-  const Pose2& pose = poses_[node];
+void IncrementalFit::linearise_at(std::uint32_t node, const Pose2& pose) {
   nodes_[node].linearised_at = pose;
   nodes_[node].cosine = std::cos(pose.yaw);
   nodes_[node].sine = std::sin(pose.yaw);
@@ -89,7 +87,7 @@ void IncrementalFit::relinearise(IncrementalStep& step) {
     }
     if (step.relinearised > 0 && work + more > options_.most_work) continue;
     work += more;
-    linearise_here(node);
+    linearise_at(node, pose(node));
     claim_around(node);
     ++step.relinearised;
   }
@@ -152,11 +150,16 @@ LooseSystem IncrementalFit::linearise(std::vector<std::int32_t> nodes) {
   return system;
 }
 
-void IncrementalFit::move(std::span<const std::int32_t> nodes) {
-  for (const std::int32_t node : nodes) {
-    const double* twist = delta_.data() + kBlock * static_cast<std::size_t>(node);
-    poses_[node] = nodes_[node].linearised_at * exponential({twist[0], twist[1], twist[2]});
-  }
+Pose2 IncrementalFit::pose(std::uint32_t node) const {
+  const double* twist = delta_.data() + kBlock * static_cast<std::size_t>(node);
+  return nodes_[node].linearised_at * exponential({twist[0], twist[1], twist[2]});
+}
+
+std::vector<Pose2> IncrementalFit::poses() const {
+  std::vector<Pose2> all;
+  all.reserve(nodes_.size());
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) all.push_back(pose(node));
+  return all;
 }
 
 IncrementalStep IncrementalFit::update() {
@@ -176,16 +179,14 @@ IncrementalStep IncrementalFit::update() {
   for (const std::int32_t node : system.nodes) {
     if (!tree_.holds(node)) loose_.push_back(node);
   }
-  const std::vector<std::int32_t> moved = tree_.back_substitute(delta_, options_.propagate_beyond);
-  step.moved = moved.size();
-  move(moved);
+  step.moved = tree_.back_substitute(delta_, options_.propagate_beyond).size();
   return step;
 }
 
 FitResult IncrementalFit::solve_fully(const FitOptions& options) {
   RelationGraph graph;
   std::vector<std::uint32_t> held;
-  graph.poses = poses_;
+  graph.poses = poses();
   for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
     graph.is_landmark.push_back(nodes_[node].is_landmark);
     if (nodes_[node].is_held || nodes_[node].is_removed) held.push_back(node);
@@ -196,9 +197,8 @@ FitResult IncrementalFit::solve_fully(const FitOptions& options) {
   FitOptions with_loss = options;
   with_loss.loss = options_.loss;
   FitResult result = fit(graph, held, with_loss);
-  poses_ = result.poses;
   for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
-    linearise_here(node);
+    linearise_at(node, result.poses[node]);
     tree_.claim(static_cast<std::int32_t>(node));
   }
   update();
@@ -206,11 +206,12 @@ FitResult IncrementalFit::solve_fully(const FitOptions& options) {
 }
 
 double IncrementalFit::cost() const {
+  const std::vector<Pose2> at = poses();
   double sum = 0;
   for (std::size_t i = 0; i < relations_.size(); ++i) {
     if (is_removed_[i]) continue;
     const GraphRelation& r = relations_[i];
-    const Pose2 T_a_b = r.a == kWorld ? poses_[r.b] : poses_[r.a].inverse() * poses_[r.b];
+    const Pose2 T_a_b = r.a == kWorld ? at[r.b] : at[r.a].inverse() * at[r.b];
     PairExpansion pair = expand(r.measurement, RelativePose::of(T_a_b));
     soften(r, options_.loss, pair);
     sum += pair.cost;

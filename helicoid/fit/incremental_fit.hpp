@@ -54,7 +54,9 @@ class IncrementalFit {
   FitResult solve_fully(const FitOptions& options = {});
 
   /// T_plane_node as of the last update.
-  [[nodiscard]] std::span<const Pose2> poses() const { return poses_; }
+  [[nodiscard]] Pose2 pose(std::uint32_t node) const;
+  /// Of all nodes; costs what the whole graph does.
+  [[nodiscard]] std::vector<Pose2> poses() const;
   /// Chi^2 / 2 of these poses, with the loss. Looks at every relation.
   [[nodiscard]] double cost() const;
 
@@ -65,17 +67,15 @@ class IncrementalFit {
     std::vector<std::uint32_t> relations;
     bool is_landmark = false, is_held = false, is_removed = false;
   };
-  void linearise_here(std::uint32_t node);
+  void linearise_at(std::uint32_t node, const Pose2& pose);
   void claim_around(std::uint32_t node);
   void relinearise(IncrementalStep& step);
   [[nodiscard]] RelativePose relative(const GraphRelation& r) const;
   [[nodiscard]] LooseSystem linearise(std::vector<std::int32_t> nodes);
   void add(const GraphRelation& r, LooseSystem& system) const;
-  void move(std::span<const std::int32_t> nodes);
 
   IncrementalOptions options_;
   std::vector<Node> nodes_;
-  std::vector<Pose2> poses_;
   std::vector<double> delta_;  ///< twist from where each node is linearised
   std::vector<GraphRelation> relations_;
   std::vector<bool> is_removed_;        ///< of each relation
