@@ -4,6 +4,7 @@
 
 #include "apps/experiments/list.hpp"
 #include "helicoid/fit/cpu_clock.hpp"
+#include "helicoid/fit/fit_from_start.hpp"
 #include "helicoid/fit/incremental_fit.hpp"
 #include "helicoid/io/graph_reader.hpp"
 
@@ -30,19 +31,25 @@ Pose2 predict(const std::vector<GraphRelation>& step, std::uint32_t node, const 
   return {};
 }
 
-struct Playback {
-  double total_s = 0, worst_s = 0, worst_excess = 0, last_excess = 0;
-  std::size_t worst_step = 0, waiting = 0, eliminated = 0, relinearised = 0, undetermined = 0;
-};
-
 /// What the incremental fit made of the first poses.
 struct Snapshot {
   std::vector<Pose2> poses;
   double cost = 0;
 };
 
+struct Played {
+  std::vector<double> step_s;  ///< CPU seconds
+  std::vector<Snapshot> snapshots;
+  std::size_t waiting = 0, eliminated = 0, relinearised = 0, undetermined = 0;
+};
+
+struct Excess {
+  double worst_percent = 0, last_percent = 0;
+};
+
 /// Holds the snapshots against batch fits: afterwards, so that no step finds the caches full of a judge's work.
-void judge(const std::vector<std::vector<GraphRelation>>& steps, const std::vector<Snapshot>& snapshots, Playback& p) {
+Excess judge(const std::vector<std::vector<GraphRelation>>& steps, const std::vector<Snapshot>& snapshots) {
+  Excess excess;
   RelationGraph so_far;
   std::size_t node = 0;
   for (const Snapshot& s : snapshots) {
@@ -50,16 +57,16 @@ void judge(const std::vector<std::vector<GraphRelation>>& steps, const std::vect
       so_far.relations.insert(so_far.relations.end(), steps[node].begin(), steps[node].end());
     so_far.poses = s.poses;
     // Chains that nothing contradicts cost nothing: a share of nothing says nothing.
-    p.last_excess = 100 * (s.cost / std::max(fit(so_far).final_cost, 1e-3) - 1);
-    p.worst_excess = std::max(p.worst_excess, p.last_excess);
+    const double best = fit_from(so_far, FitStart::automatic).result.final_cost;
+    excess.last_percent = 100 * (s.cost / std::max(best, 1e-3) - 1);
+    excess.worst_percent = std::max(excess.worst_percent, excess.last_percent);
   }
+  return excess;
 }
 
-Playback play(const RelationGraph& graph) {
-  Playback p;
-  const auto steps = steps_of(graph);
+Played play(const std::vector<std::vector<GraphRelation>>& steps) {
+  Played p;
   IncrementalFit fitted;
-  std::vector<Snapshot> snapshots;
   for (std::uint32_t node = 0; node < steps.size(); ++node) {
     double seconds = 0;
     {
@@ -73,15 +80,10 @@ Playback play(const RelationGraph& graph) {
       p.relinearised += step.relinearised;
       p.undetermined += step.is_determined ? 0 : 1;
     }
-    p.total_s += seconds;
-    if (seconds > p.worst_s) p.worst_step = node;
-    p.worst_s = std::max(p.worst_s, seconds);
+    p.step_s.push_back(seconds);
     const bool is_last = node + 1 == steps.size();
-    if (is_last || (node % 100 == 0 && node > 0)) {
-      snapshots.push_back({fitted.poses(), fitted.cost()});
-    }
+    if (is_last || (node % 100 == 0 && node > 0)) p.snapshots.push_back({fitted.poses(), fitted.cost()});
   }
-  judge(steps, snapshots, p);
   return p;
 }
 
@@ -89,15 +91,25 @@ Playback play(const RelationGraph& graph) {
 Result<Outcome> measure(const std::string& path, double allowed_s) {
   const Result<GraphFile> file = read_graph(path);
   if (!file) return tl::unexpected(file.error());
-  const Playback p = play(file->graph);
-  const auto count = static_cast<double>(file->graph.poses.size());
-  return Outcome{{{"worst_excess_cost_percent", p.worst_excess},
-                  {"last_excess_cost_percent", p.last_excess},
-                  {"worst_step_ms", 1e3 * p.worst_s},
-                  {"worst_step_index", static_cast<double>(p.worst_step)},
-                  {"total_cpu_s", p.total_s},
-                  {"share_of_allowed_cpu_percent", 100 * p.total_s / allowed_s},
-                  {"per_pose_ms", 1e3 * p.total_s / count},
+  const auto steps = steps_of(file->graph);
+  Played p = play(steps);
+  // The work of a step is the same each time; what it takes longer is other programs' doing.
+  const Played again = play(steps);
+  double total_s = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    p.step_s[i] = std::min(p.step_s[i], again.step_s[i]);
+    total_s += p.step_s[i];
+  }
+  const auto worst = std::max_element(p.step_s.begin(), p.step_s.end());
+  const Excess excess = judge(steps, p.snapshots);
+  const auto count = static_cast<double>(steps.size());
+  return Outcome{{{"worst_excess_cost_percent", excess.worst_percent},
+                  {"last_excess_cost_percent", excess.last_percent},
+                  {"final_cost_chi2", 2 * p.snapshots.back().cost},
+                  {"worst_step_ms", 1e3 * *worst},
+                  {"worst_step_index", static_cast<double>(worst - p.step_s.begin())},
+                  {"total_cpu_s", total_s},
+                  {"share_of_allowed_cpu_percent", 100 * total_s / allowed_s},
                   {"eliminated_a_step_count", static_cast<double>(p.eliminated) / count},
                   {"relinearised_a_step_count", static_cast<double>(p.relinearised) / count},
                   {"most_waiting_count", static_cast<double>(p.waiting)},
@@ -129,7 +141,8 @@ Experiment playback_experiment() {
   e.method =
       "The poses of each recorded graph come one a step, each with all its relations to earlier poses and where the "
       "first "
-      "of those puts it. CPU time is taken of each step; all together may take 2 s for manhattan and 20 s for "
+      "of those puts it. CPU time is taken of each step, the lesser of two runs of the same work; all together may "
+      "take 2 s for manhattan and 20 s for "
       "city10000. At every hundredth step and the last the cost is held "
       "against that of a batch fit of the same relations from the same poses.";
   e.bars = {{"worst_excess_cost_percent", std::nullopt, 1.0, false},
