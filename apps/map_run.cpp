@@ -100,6 +100,7 @@ void map_events(const MapJob& job, MergedLogs& logs, MapRun& run) {
     // One scan at least, so that there is a map to write.
     if (interrupted != 0 && !run.scan_seconds.empty()) break;
     if (!selection.wants(*event)) continue;
+    if (!job.sightings && std::holds_alternative<Sighting>(event->body)) continue;
     if (!std::holds_alternative<Scan>(event->body)) {
       run.mapper.process(*event);
       continue;

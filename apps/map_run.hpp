@@ -19,6 +19,7 @@ struct MapJob {
   double from = 0;        ///< seconds since the robot's first stamp
   double to = 1e300;
   MapperOptions mapper;
+  bool sightings = true;  ///< false: the logs' sightings are left out
   /// Called now and then with the share of events that are done, 0..1.
   std::function<void(double)> progress;
 };

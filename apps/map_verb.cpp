@@ -117,6 +117,7 @@ int run_verb(const MapArguments& a) {
   job.from = a.from;
   job.to = a.to;
   job.mapper.closures = !a.no_closures;
+  job.mapper.join_on_evidence = a.join == "evidence";
   job.progress = [&bar](double share) { bar.show(share, "mapping"); };
   Result<MapRun> run = run_map(job);
   if (!run) return report_failure(run.error().message);

@@ -10,5 +10,6 @@ namespace helicoid {
 [[nodiscard]] Experiment laps_experiment();
 [[nodiscard]] Experiment outliers_experiment();
 [[nodiscard]] Experiment playback_experiment();
+[[nodiscard]] Experiment teams_experiment();
 
 }  // namespace helicoid

@@ -130,7 +130,14 @@ std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> be
   return touched;
 }
 
-/// Ties what the entries say, fits, and relates what has become related until nothing is induced any more.
+}  // namespace
+
+void MapInProgress::add(const Relation& relation) {
+  editor.add_relation(relation);
+  graph.add(relation.a.value, relation.b.value, relation.T_a_b,
+            expand(relation.form, relation.T_a_b).information / information_divisor(map, relation));
+}
+
 void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
             const MapperOptions& options) {
   constexpr int kRounds = 10;
@@ -144,14 +151,6 @@ void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const s
     progress.graph = information_graph(progress.map);
     touched = induce(progress, touched, closer.along(), options);
   }
-}
-
-}  // namespace
-
-void MapInProgress::add(const Relation& relation) {
-  editor.add_relation(relation);
-  graph.add(relation.a.value, relation.b.value, relation.T_a_b,
-            expand(relation.form, relation.T_a_b).information / information_divisor(map, relation));
 }
 
 bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const LocalMap& known,

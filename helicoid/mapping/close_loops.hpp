@@ -15,6 +15,11 @@ struct MapInProgress {
   void add(const Relation& relation);
 };
 
+/// Ties what these entries of the ledger say, fits, and relates what has become related until nothing is induced any
+/// more.
+void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
+            const MapperOptions& options);
+
 /// After patch b was kept: acts on what the closer accepts now, fits, and relates what has become related (eq. 16's
 /// queue) until nothing is induced any more. True if the map has changed.
 bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const LocalMap& known,

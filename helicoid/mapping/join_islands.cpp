@@ -18,18 +18,6 @@ std::size_t patches_on(const Map& map, IslandId island) {
   return count;
 }
 
-void move_rigidly(MapInProgress& progress, const IslandJoin& join) {
-  const Map& map = progress.map;
-  const IslandId a = map.island_of(join.a);
-  const IslandId b = map.island_of(join.b);
-  const Pose2 T_plane_a_plane_b = map.T_plane_patch(join.a) * join.T_a_b * map.T_plane_patch(join.b).inverse();
-  if (patches_on(map, a) < patches_on(map, b)) {
-    progress.editor.merge_islands(b, a, T_plane_a_plane_b.inverse());
-  } else {
-    progress.editor.merge_islands(a, b, T_plane_a_plane_b);
-  }
-}
-
 Hypothesis entry_of(const IslandJoin& join) {
   Hypothesis h;
   h.state = HypothesisState::accepted;
@@ -44,6 +32,18 @@ Hypothesis entry_of(const IslandJoin& join) {
 }
 
 }  // namespace
+
+void move_rigidly(MapInProgress& progress, const IslandJoin& join) {
+  const Map& map = progress.map;
+  const IslandId a = map.island_of(join.a);
+  const IslandId b = map.island_of(join.b);
+  const Pose2 T_plane_a_plane_b = map.T_plane_patch(join.a) * join.T_a_b * map.T_plane_patch(join.b).inverse();
+  if (patches_on(map, a) < patches_on(map, b)) {
+    progress.editor.merge_islands(b, a, T_plane_a_plane_b.inverse());
+  } else {
+    progress.editor.merge_islands(a, b, T_plane_a_plane_b);
+  }
+}
 
 void join_islands(MapInProgress& progress, LoopCloser& closer, const IslandJoin& join, const MapperOptions& options) {
   move_rigidly(progress, join);

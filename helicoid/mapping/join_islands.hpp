@@ -6,6 +6,9 @@
 
 namespace helicoid {
 
+/// The smaller island moves as a whole to where the join says.
+void move_rigidly(MapInProgress& progress, const IslandJoin& join);
+
 /// The island with fewer patches moves. The ledger tells of it.
 void join_islands(MapInProgress& progress, LoopCloser& closer, const IslandJoin& join, const MapperOptions& options);
 

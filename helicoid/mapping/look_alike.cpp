@@ -103,6 +103,10 @@ PlaceWindow window_about(const Candidate& candidate, const LookAlikeOptions& opt
 
 }  // namespace
 
+ScanPoints points_about(const Map& map, PatchId b, const LookAlikeOptions& options) {
+  return points_of_place(map, b, patches_before(map, b, options));
+}
+
 std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& graph, PatchId b,
                                        std::span<const BoundedPose> bounds, const LocalMap& known,
                                        const LookAlikeOptions& options) {

@@ -24,6 +24,9 @@ struct LookAlikeOptions {
   double most_contradicted = 0.12;
 };
 
+/// What was seen about b: the points of the patches that its robot kept on the last few metres, in b's frame.
+[[nodiscard]] ScanPoints points_about(const Map& map, PatchId b, const LookAlikeOptions& options);
+
 /// A patch that may show the same place, and where.
 struct Candidate {
   PatchId a;

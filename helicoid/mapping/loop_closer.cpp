@@ -66,15 +66,37 @@ std::vector<std::size_t> LoopCloser::observe(const Map& map, const InformationGr
     ledger_[entry].supports = agreeing;
     agreeing.push_back(entry);
     ledger_[entry].reason = "waits for others that agree";
-    if (!is_enough(agreeing)) continue;
-    for (const std::size_t i : agreeing) {
-      if (ledger_[i].state != HypothesisState::open) continue;
-      ledger_[i].state = HypothesisState::accepted;
-      ledger_[i].reason = "agrees with others of the same passage";
-      accepted.push_back(i);
-    }
+    if (!is_enough(agreeing, options_.least_agreeing, options_.least_way)) continue;
+    const std::vector<std::size_t> now = accept(agreeing);
+    accepted.insert(accepted.end(), now.begin(), now.end());
   }
   return accepted;
+}
+
+std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing) {
+  std::vector<std::size_t> accepted;
+  for (const std::size_t i : agreeing) {
+    if (ledger_[i].state != HypothesisState::open) continue;
+    ledger_[i].state = HypothesisState::accepted;
+    ledger_[i].reason = "agrees with others of the same passage";
+    accepted.push_back(i);
+  }
+  return accepted;
+}
+
+std::vector<std::size_t> LoopCloser::consider_between(const Map& map, const InformationGraph& graph, Hypothesis found,
+                                                      bool may_join) {
+  const std::size_t entry = ledger_.size();
+  found.reason = may_join ? "waits for others that agree" : "a proposal: islands are joined by sightings";
+  ledger_.push_back(std::move(found));
+  const PatchId b = ledger_[entry].b;
+  const std::vector<BoundedPose> about_b =
+      tree_bound(graph, map.poses(), b.value, bound_options(map.patch(b), 0.6, 0.25, 30));
+  std::vector<std::size_t> agreeing = find_support(map, graph, about_b, entry);
+  ledger_[entry].supports = agreeing;
+  agreeing.push_back(entry);
+  if (!may_join || !is_enough(agreeing, options_.least_agreeing_islands, options_.least_way_islands)) return {};
+  return accept(agreeing);
 }
 
 std::vector<std::size_t> LoopCloser::find_support(const Map& map, const InformationGraph& graph,
@@ -97,8 +119,8 @@ std::vector<std::size_t> LoopCloser::find_support(const Map& map, const Informat
   return agreeing;
 }
 
-bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing) const {
-  if (agreeing.size() < options_.least_agreeing) return false;
+bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing, std::size_t least, double way) const {
+  if (agreeing.size() < least) return false;
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   bool clear = false;
@@ -107,7 +129,7 @@ bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing) const {
     high = std::max(high, along_[ledger_[i].b.index()]);
     clear = clear || ledger_[i].ambiguity < options_.most_ambiguous;
   }
-  return clear && high - low >= options_.least_way;
+  return clear && high - low >= way;
 }
 
 }  // namespace helicoid

@@ -12,7 +12,9 @@ struct LoopCloserOptions {
   std::size_t memory = 60;         ///< entries back that may support a new one
   std::size_t least_agreeing = 3;  ///< hypotheses of different patches that must agree
   double least_way = 2;            ///< the robot's way over which they must extend, metres
-  double most_ambiguous = 0.9;     ///< one at least must be clearer than this
+  std::size_t least_agreeing_islands = 5;
+  double least_way_islands = 8;
+  double most_ambiguous = 0.9;  ///< one at least must be clearer than this
 };
 
 class LoopCloser {
@@ -23,6 +25,11 @@ class LoopCloser {
   /// To be called for every patch that was kept, its relations in the map; `known`: the local map that it was matched
   /// with. The places in the ledger of the entries that are accepted now.
   std::vector<std::size_t> observe(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known);
+
+  /// A look-alike between two islands, which may lie on a different floor: more must agree, over a longer way. The
+  /// entries that are accepted now; none unless `may_join`.
+  std::vector<std::size_t> consider_between(const Map& map, const InformationGraph& graph, Hypothesis found,
+                                            bool may_join);
 
   /// Lets every patch be looked at once more, from the first on.
   void start_again(const Map& map);
@@ -38,7 +45,8 @@ class LoopCloser {
   void follow_ways(const Map& map);
   std::vector<std::size_t> find_support(const Map& map, const InformationGraph& graph,
                                         std::span<const BoundedPose> about_b, std::size_t entry) const;
-  [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing) const;
+  [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, std::size_t least, double way) const;
+  std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing);
 
   MapperOptions mapper_;
   LoopCloserOptions options_;

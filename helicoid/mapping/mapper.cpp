@@ -5,6 +5,7 @@
 
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/fit_islands.hpp"
+#include "helicoid/mapping/island_evidence.hpp"
 #include "helicoid/mapping/join_islands.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
 #include "helicoid/mapping/new_ground.hpp"
@@ -171,6 +172,7 @@ void Mapper::State::look_for_loops_again() {
   MapInProgress progress{map, editor, graph};
   progress.graph = information_graph(map);
   close_loops_again(progress, closer, options);
+  join_on_evidence(progress, closer, options.join_on_evidence, options);
   times.close_s += thread_seconds() - began;
 }
 

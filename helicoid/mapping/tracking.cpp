@@ -68,6 +68,7 @@ Alignment Mapper::State::match_on_own_way(RobotState& robot, const ScanPoints& p
   robot.pose = pose;
   prior = there;
   robot.stale = true;
+  renew_reference(robot, points, prior.T_reference_scan);
   return failed;
 }
 

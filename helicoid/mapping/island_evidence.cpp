@@ -1,0 +1,135 @@
+#include "helicoid/mapping/island_evidence.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "helicoid/align/place_search.hpp"
+#include "helicoid/manifold/confidence.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// All that an island's patches saw, in its plane, and a window that holds every placement on it.
+struct IslandView {
+  Reference reference;
+  PlaceWindow window;
+};
+
+IslandView view_of(const Map& map, const Island& island, const IslandEvidenceOptions& options) {
+  IslandView view;
+  std::vector<ReferencePart> parts;
+  Vector2d low(HUGE_VAL, HUGE_VAL);
+  Vector2d high = -low;
+  for (const PatchId id : island.patches) {
+    parts.push_back({&map.patch(id).points, map.T_plane_patch(id)});
+    low = low.cwiseMin(map.T_plane_patch(id).translation());
+    high = high.cwiseMax(map.T_plane_patch(id).translation());
+  }
+  view.reference.build(parts);
+  const Vector2d middle = 0.5 * (low + high);
+  view.window.T_reference_scan = {middle.x(), middle.y(), 0};
+  view.window.half_width = 0.5 * (high - low).maxCoeff() + 2;
+  view.window.half_turn = std::numbers::pi;
+  view.window.turn_step = options.turn_step;
+  view.window.least_score = options.least_score;
+  return view;
+}
+
+/// Patches of an island at equal distances along its robots' ways.
+std::vector<PatchId> places_along(const Island& island, std::span<const double> along,
+                                  const IslandEvidenceOptions& options) {
+  std::vector<PatchId> places;
+  double last = -HUGE_VAL;
+  for (const PatchId id : island.patches) {
+    if (std::abs(along[id.index()] - last) < options.place_spacing) continue;
+    last = along[id.index()];
+    places.push_back(id);
+  }
+  const std::size_t stride = places.size() / options.most_places + 1;
+  std::vector<PatchId> spread;
+  for (std::size_t i = 0; i < places.size(); i += stride) spread.push_back(places[i]);
+  return spread;
+}
+
+PatchId nearest_patch(const Map& map, const Island& island, const Vector2d& p_plane) {
+  return *std::min_element(island.patches.begin(), island.patches.end(), [&](PatchId x, PatchId y) {
+    return (map.T_plane_patch(x).translation() - p_plane).squaredNorm() <
+           (map.T_plane_patch(y).translation() - p_plane).squaredNorm();
+  });
+}
+
+/// Where a place of one island seems to lie on another.
+std::optional<Hypothesis> look_for(const Map& map, const InformationGraph& graph, PatchId place, const Island& there,
+                                   const IslandView& view, const MapperOptions& mapper,
+                                   const IslandEvidenceOptions& options) {
+  const LookAlikeOptions look_alike;
+  const PlaceSearch found = search_place(view.reference, points_about(map, place, look_alike), view.window);
+  if (found.best.score <= 0) return std::nullopt;
+  const Pose2& T_plane_place = found.best.T_reference_scan;
+  const PatchId a = nearest_patch(map, there, T_plane_place.translation());
+  Candidate candidate{a, {map.T_plane_patch(a).inverse() * T_plane_place, Matrix3d::Zero()}};
+  const double position = options.placed_within / 1.96;
+  const double heading = options.placed_within_turn / 1.96;
+  candidate.T_a_b.covariance.diagonal() << position * position, position * position, heading * heading;
+  std::optional<Hypothesis> h = compare_places(map, graph, candidate, place, mapper, look_alike);
+  if (!h) return std::nullopt;
+  h->ambiguity = found.second.score / found.best.score;
+  if (h->b < h->a) {
+    std::swap(h->a, h->b);
+    h->T_a_b = invert(h->T_a_b);
+  }
+  return h;
+}
+
+IslandJoin join_of(const Hypothesis& h) {
+  IslandJoin join;
+  join.determined = true;
+  join.a = h.a;
+  join.b = h.b;
+  join.T_a_b = h.T_a_b.T_a_b;
+  join.information = h.T_a_b.covariance.inverse();
+  return join;
+}
+
+/// One pair of islands; `here` is the smaller one.
+bool compare_islands(MapInProgress& progress, LoopCloser& closer, const Island& there, const Island& here,
+                     bool may_join, const MapperOptions& mapper, const IslandEvidenceOptions& options) {
+  const Map& map = progress.map;
+  const IslandView view = view_of(map, there, options);
+  for (const PatchId place : places_along(here, closer.along(), options)) {
+    std::optional<Hypothesis> h = look_for(map, progress.graph, place, there, view, mapper, options);
+    if (!h) continue;
+    const std::vector<std::size_t> accepted = closer.consider_between(map, progress.graph, std::move(*h), may_join);
+    if (accepted.empty()) continue;
+    move_rigidly(progress, join_of(closer.ledger()[accepted.back()]));
+    act_on(progress, closer, accepted, mapper);
+    close_loops_again(progress, closer, mapper);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool join_on_evidence(MapInProgress& progress, LoopCloser& closer, bool may_join, const MapperOptions& mapper,
+                      const IslandEvidenceOptions& options) {
+  bool joined = false;
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<Island> islands = progress.map.islands();
+    std::stable_sort(islands.begin(), islands.end(),
+                     [](const Island& x, const Island& y) { return x.patches.size() > y.patches.size(); });
+    for (std::size_t i = 1; i < islands.size() && !again; ++i) {
+      for (std::size_t k = 0; k < i && !again; ++k) {
+        again = compare_islands(progress, closer, islands[k], islands[i], may_join, mapper, options);
+      }
+    }
+    joined = joined || again;
+  }
+  return joined;
+}
+
+}  // namespace helicoid
