@@ -170,6 +170,7 @@ void Mapper::State::look_for_loops(PatchId id, const LocalMap& known) {
 void Mapper::State::look_for_loops_again() {
   const double began = thread_seconds();
   MapInProgress progress{map, editor, graph};
+  fit_islands(map, editor);
   progress.graph = information_graph(map);
   close_loops_again(progress, closer, options);
   join_on_evidence(progress, closer, options.join_on_evidence, options);
@@ -217,11 +218,12 @@ void Mapper::finish() {
   s.counts.sightings_left = s.sightings.left();
   if (s.patches_at_last_fit == s.map.patch_count()) return;
   s.patches_at_last_fit = s.map.patch_count();
+  if (s.options.closures) s.look_for_loops_again();
   const double began = thread_seconds();
   fit_islands(s.map, s.editor);
+  s.graph = information_graph(s.map);
   for (RobotState& robot : s.robots) robot.stale = true;
   s.times.fit_s += thread_seconds() - began;
-  if (s.options.closures) s.look_for_loops_again();
 }
 
 const Map& Mapper::map() const {
