@@ -1,6 +1,11 @@
 // Random graphs of relations for tests: nothing about them is special.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
 #include "helicoid/base/random.hpp"
 #include "helicoid/fit/relation_graph.hpp"
 
@@ -42,6 +47,16 @@ inline RelationGraph random_graph(std::uint64_t seed, std::uint32_t poses, std::
   }
   graph.poses[0] = truth[0];
   return graph;
+}
+
+/// The largest of all differences of coordinates, in metres and radians, pose by pose.
+inline double largest_difference(std::span<const Pose2> a, std::span<const Pose2> b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Pose2 d = a[i].inverse() * b[i];
+    most = std::max({most, std::abs(d.x), std::abs(d.y), std::abs(d.yaw)});
+  }
+  return most;
 }
 
 }  // namespace helicoid

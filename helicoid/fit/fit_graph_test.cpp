@@ -10,19 +10,6 @@
 
 namespace helicoid {
 
-namespace {
-
-double largest_difference(std::span<const Pose2> a, std::span<const Pose2> b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Pose2 d = a[i].inverse() * b[i];
-    most = std::max({most, std::abs(d.x), std::abs(d.y), std::abs(d.yaw)});
-  }
-  return most;
-}
-
-}  // namespace
-
 TEST(FitGraph, RelationsThatAgreeAreMetExactly) {
   RelationGraph graph = random_graph(1, 40, 30, 0.2);
   const std::vector<Pose2> truth = odometry_start(graph);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "helicoid/base/random.hpp"
+#include "tests/random_graph.hpp"
 
 namespace helicoid {
 
@@ -51,15 +52,6 @@ struct Growing {
   }
 };
 
-double farthest(std::span<const Pose2> a, std::span<const Pose2> b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Pose2 d = a[i].inverse() * b[i];
-    most = std::max({most, std::abs(d.x), std::abs(d.y), std::abs(d.yaw)});
-  }
-  return most;
-}
-
 }  // namespace
 
 TEST(IncrementalFit, AlongAGridTheCostIsTheBatchFitsToOnePercent) {
@@ -87,7 +79,7 @@ TEST(IncrementalFit, RelationsThatAreRemovedLeaveTheMapThatNeverHadThem) {
   growing.graph.poses = growing.fitted.poses();
   const FitResult batch = fit(growing.graph);
   EXPECT_LE(growing.fitted.cost(), 1.001 * batch.final_cost);
-  EXPECT_LT(farthest(growing.fitted.poses(), batch.poses), 0.01);
+  EXPECT_LT(largest_difference(growing.fitted.poses(), batch.poses), 0.01);
 }
 
 TEST(IncrementalFit, APoseThatIsRemovedTakesItsRelationsAlong) {
@@ -99,7 +91,7 @@ TEST(IncrementalFit, APoseThatIsRemovedTakesItsRelationsAlong) {
   Growing shorter;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) shorter.grow(steps[i]);
   for (int i = 0; i < 5; ++i) shorter.fitted.update();
-  EXPECT_LT(farthest(shorter.fitted.poses(), growing.fitted.poses()), 0.01);
+  EXPECT_LT(largest_difference(shorter.fitted.poses(), growing.fitted.poses()), 0.01);
 }
 
 TEST(IncrementalFit, WhatNothingTiesDownWaitsUntilSomethingDoes) {

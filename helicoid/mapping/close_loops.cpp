@@ -19,13 +19,6 @@ constexpr int kMinCorrespondences = 40;
 /// Patches that are to be related lie this near, metres.
 constexpr double kNear = 3;
 
-LocalMap local_map_about(const MapInProgress& progress, PatchId anchor, const MapperOptions& options) {
-  BoundOptions bound = bound_options(progress.map.patch(anchor), options.reference_position, options.reference_heading,
-                                     options.local_radius);
-  bound.most = options.local_patches;
-  return find_local_map(progress.map, progress.graph, anchor, bound);
-}
-
 RelateOptions relate_options(const Patch& patch) {
   RelateOptions options;
   options.kappa = patch.laser.kappa;
@@ -75,7 +68,7 @@ bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along)
 std::vector<PatchId> induce_at(MapInProgress& progress, PatchId b, std::span<const double> along,
                                const MapperOptions& options) {
   if (!has_untied_ground(progress.map, b, along)) return {};
-  LocalMap local = local_map_about(progress, b, options);
+  LocalMap local = find_local_map(progress.map, progress.graph, b, options);
   std::erase_if(local, [&](const LocalPatch& p) {
     return p.patch.value >= b.value || is_tied_to_stretch(progress.map, b, p.patch, along);
   });
@@ -88,7 +81,7 @@ std::vector<PatchId> induce_at(MapInProgress& progress, PatchId b, std::span<con
 
 /// Ties b to what lies about a as an accepted hypothesis says. The patches that were related.
 std::vector<PatchId> tie(MapInProgress& progress, const Hypothesis& h, const MapperOptions& options) {
-  LocalMap local = local_map_about(progress, h.a, options);
+  LocalMap local = find_local_map(progress.map, progress.graph, h.a, options);
   std::erase_if(local, [&](const LocalPatch& p) { return p.patch.value >= h.b.value; });
   const std::vector<LocalPatch> views =
       select_views(progress.map, local, progress.map.patch(h.b).points, h.T_a_b.T_a_b, h.a, options.relation_views);
@@ -170,7 +163,7 @@ void close_loops_again(MapInProgress& progress, LoopCloser& closer, const Mapper
       const PatchId b = make_id<PatchId>(i);
       if (!closer.is_due(progress.map, b) || !has_untied_ground(progress.map, b, closer.along())) continue;
       const std::vector<std::size_t> now =
-          closer.observe(progress.map, progress.graph, b, local_map_about(progress, b, options));
+          closer.observe(progress.map, progress.graph, b, find_local_map(progress.map, progress.graph, b, options));
       accepted.insert(accepted.end(), now.begin(), now.end());
     }
     if (accepted.empty()) return;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "helicoid/manifold/confidence.hpp"
+
 namespace helicoid {
 
 namespace {
@@ -98,6 +100,13 @@ LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId a
     local.push_back({PatchId{bounded.pose}, bounded.relative.T_a_b, bounded.relative.covariance});
   }
   return local;
+}
+
+LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId anchor, const MapperOptions& options) {
+  BoundOptions bound =
+      bound_options(map.patch(anchor), options.reference_position, options.reference_heading, options.local_radius);
+  bound.most = options.local_patches;
+  return find_local_map(map, graph, anchor, bound);
 }
 
 std::vector<LocalPatch> nearest_views(const LocalMap& local, const Pose2& T_anchor_robot, std::size_t most) {

@@ -7,6 +7,7 @@
 #include "helicoid/align/reference.hpp"
 #include "helicoid/fit/joint_bound.hpp"
 #include "helicoid/manifold/map.hpp"
+#include "helicoid/mapping/mapper_options.hpp"
 
 namespace helicoid {
 
@@ -22,6 +23,9 @@ using LocalMap = std::vector<LocalPatch>;
 
 [[nodiscard]] LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId anchor,
                                       const BoundOptions& options);
+/// The same with the mapper's own limits: what is matched with.
+[[nodiscard]] LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId anchor,
+                                      const MapperOptions& options);
 
 /// The patches nearest to a robot at this pose, those that look the same way first.
 [[nodiscard]] std::vector<LocalPatch> nearest_views(const LocalMap& local, const Pose2& T_anchor_robot,

@@ -145,10 +145,7 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
                                          PatchId b, const MapperOptions& mapper, const LookAlikeOptions& options) {
   const std::vector<PatchId> place = patches_before(map, b, options);
   const ScanPoints points = points_of_place(map, b, place);
-  BoundOptions bound =
-      bound_options(map.patch(candidate.a), mapper.reference_position, mapper.reference_heading, mapper.local_radius);
-  bound.most = mapper.local_patches;
-  LocalMap local = find_local_map(map, graph, candidate.a, bound);
+  LocalMap local = find_local_map(map, graph, candidate.a, mapper);
   std::erase_if(local, [&](const LocalPatch& p) { return std::count(place.begin(), place.end(), p.patch) > 0; });
   const std::vector<LocalPatch> views = nearest_views(local, Pose2{}, options.views);
   std::vector<ReferencePart> parts;
@@ -179,7 +176,8 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
   h.b = b;
   h.T_a_b.T_a_b = alignment.T_reference_scan;
   h.T_a_b.covariance = (alignment.information / align.kappa + 1e-3 * Matrix3d::Identity()).inverse();
-  h.T_a_b.covariance = with_noise_floor(h.T_a_b, noise_floor(bound.floor_position, bound.floor_heading),
+  const LaserModel& laser_a = map.patch(candidate.a).laser;
+  h.T_a_b.covariance = with_noise_floor(h.T_a_b, noise_floor(laser_a.floor_position, laser_a.floor_heading),
                                         noise_floor(laser.floor_position, laser.floor_heading));
   h.score = alignment.inlier_share;
   h.ambiguity = ambiguity;

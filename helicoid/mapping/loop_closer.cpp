@@ -10,6 +10,8 @@ namespace helicoid {
 
 namespace {
 
+constexpr const char* kWaits = "waits for others that agree";
+
 const BoundedPose* find(std::span<const BoundedPose> poses, PatchId id) {
   const auto at = std::find_if(poses.begin(), poses.end(), [&](const BoundedPose& p) { return p.pose == id.value; });
   return at == poses.end() ? nullptr : &*at;
@@ -60,17 +62,23 @@ std::vector<std::size_t> LoopCloser::observe(const Map& map, const InformationGr
   for (const Candidate& candidate : find_candidates(map, graph, b, about_b, known, options_.look_alike)) {
     std::optional<Hypothesis> found = compare_places(map, graph, candidate, b, mapper_, options_.look_alike);
     if (!found) continue;
-    const std::size_t entry = ledger_.size();
-    ledger_.push_back(std::move(*found));
-    std::vector<std::size_t> agreeing = find_support(map, graph, about_b, entry);
-    ledger_[entry].supports = agreeing;
-    agreeing.push_back(entry);
-    ledger_[entry].reason = "waits for others that agree";
+    found->reason = kWaits;
+    const std::vector<std::size_t> agreeing = enter(map, graph, about_b, std::move(*found));
     if (!is_enough(agreeing, options_.least_agreeing, options_.least_way)) continue;
     const std::vector<std::size_t> now = accept(agreeing);
     accepted.insert(accepted.end(), now.begin(), now.end());
   }
   return accepted;
+}
+
+std::vector<std::size_t> LoopCloser::enter(const Map& map, const InformationGraph& graph,
+                                           std::span<const BoundedPose> about_b, Hypothesis found) {
+  const std::size_t entry = ledger_.size();
+  ledger_.push_back(std::move(found));
+  std::vector<std::size_t> agreeing = find_support(map, graph, about_b, entry);
+  ledger_[entry].supports = agreeing;
+  agreeing.push_back(entry);
+  return agreeing;
 }
 
 std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing) {
@@ -86,15 +94,11 @@ std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agre
 
 std::vector<std::size_t> LoopCloser::consider_between(const Map& map, const InformationGraph& graph, Hypothesis found,
                                                       bool may_join) {
-  const std::size_t entry = ledger_.size();
-  found.reason = may_join ? "waits for others that agree" : "a proposal: islands are joined by sightings";
-  ledger_.push_back(std::move(found));
-  const PatchId b = ledger_[entry].b;
+  found.reason = may_join ? kWaits : "a proposal: islands are joined by sightings";
+  const PatchId b = found.b;
   const std::vector<BoundedPose> about_b =
       tree_bound(graph, map.poses(), b.value, bound_options(map.patch(b), 0.6, 0.25, 30));
-  std::vector<std::size_t> agreeing = find_support(map, graph, about_b, entry);
-  ledger_[entry].supports = agreeing;
-  agreeing.push_back(entry);
+  const std::vector<std::size_t> agreeing = enter(map, graph, about_b, std::move(found));
   if (!may_join || !is_enough(agreeing, options_.least_agreeing_islands, options_.least_way_islands)) return {};
   return accept(agreeing);
 }

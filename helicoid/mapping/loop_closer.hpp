@@ -43,6 +43,9 @@ class LoopCloser {
 
  private:
   void follow_ways(const Map& map);
+  /// Enters it; the places of it and of those that agree with it.
+  std::vector<std::size_t> enter(const Map& map, const InformationGraph& graph, std::span<const BoundedPose> about_b,
+                                 Hypothesis found);
   std::vector<std::size_t> find_support(const Map& map, const InformationGraph& graph,
                                         std::span<const BoundedPose> about_b, std::size_t entry) const;
   [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, std::size_t least, double way) const;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 
@@ -14,10 +13,7 @@ void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points,
     return;
   }
   if (robot.stale) {
-    BoundOptions bound = bound_options(map.patch(robot.pose.patch), options.reference_position,
-                                       options.reference_heading, options.local_radius);
-    bound.most = options.local_patches;
-    robot.local = find_local_map(map, graph, robot.pose.patch, bound);
+    robot.local = find_local_map(map, graph, robot.pose.patch, options);
     robot.T_anchor_coverage_view = T_anchor_robot;
     robot.stale = false;
   }
