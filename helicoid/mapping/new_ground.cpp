@@ -29,6 +29,7 @@ double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anc
                        const LaserModel& laser) {
   const std::vector<LocalPatch> views = nearest_views(local, T_anchor_robot, kMostViews);
   std::vector<Pose2> T_patch_laser;
+  T_patch_laser.reserve(views.size());
   const Pose2 T_anchor_laser = T_anchor_robot * scan.T_robot_laser;
   for (const LocalPatch& view : views) T_patch_laser.push_back(view.T_anchor_patch.inverse() * T_anchor_laser);
   const std::vector<float> radii = free_ranges(scan, laser);
