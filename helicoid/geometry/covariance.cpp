@@ -9,6 +9,12 @@ Matrix3d transport(const Matrix3d& jacobian, const Matrix3d& covariance) {
   return 0.5 * (moved + moved.transpose());
 }
 
+Matrix3d turned(const Matrix3d& covariance, double yaw) {
+  Matrix3d turn = Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Pose2{0, 0, yaw}.rotation();
+  return transport(turn, covariance);
+}
+
 UncertainPose2 compound(const UncertainPose2& ab, const UncertainPose2& bc) {
   const Composition c = compose_with_jacobians(ab.T_a_b, bc.T_a_b);
   return {c.T_a_c, transport(c.by_first, ab.covariance) + transport(c.by_second, bc.covariance)};

@@ -19,6 +19,9 @@ struct UncertainPose2 {
 /// J C J^T made exactly symmetric.
 [[nodiscard]] Matrix3d transport(const Matrix3d& jacobian, const Matrix3d& covariance);
 
+/// The covariance of (x, y, yaw) with its axes turned by `yaw`.
+[[nodiscard]] Matrix3d turned(const Matrix3d& covariance, double yaw);
+
 /// How well a relative pose is known: two numbers, never one mixed (design 5.3; eq. 10 with c = 1.96).
 struct ConfidenceInterval {
   double position = 0;  ///< 1.96 sqrt(largest eigenvalue of the position block), metres

@@ -32,8 +32,8 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   robot.path += motion.T_last_now.distance();
   robot.turn += std::abs(motion.T_last_now.yaw);
 
-  // Eq. 11: the predicted pose. Steps 2 to 4: the local map, the match, the fit.
-  PosePrior prior{robot.pose.T_patch_robot * motion.T_last_now, robot.motion.information(motion)};
+  // Steps 2 to 4: the local map, the match, the fit.
+  PosePrior prior = predict(robot, motion);
   const ScanPoints& points = robot.extractors[scan.laser].extract(scan);
   renew_reference(robot, points, prior.T_reference_scan);
   Alignment alignment = match(robot, points, prior, laser);
@@ -57,7 +57,8 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   }
   const Matrix3d information =
       prior.information + (alignment.usable() ? Matrix3d(alignment.information / laser.kappa) : Matrix3d::Zero());
-  tracked.covariance = information.inverse();
+  robot.covariance = information.inverse();
+  tracked.covariance = robot.covariance;
 
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
   const bool keep_it = is_worth_keeping(robot, alignment, scan, points.size(), laser);
@@ -151,6 +152,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   if (options.closures) look_for_loops(id, robot.local);
   // Eq. 15.
   robot.pose = {id, Pose2{}};
+  robot.covariance.setZero();
   robot.last_kept = id;
   robot.T_kept_robot_raw = Pose2{};
   robot.path = robot.turn = 0;

@@ -42,6 +42,10 @@ struct Mapper::State {
   const LaserModel& laser_of(RobotId robot, const Scan& scan) const { return map.robot(robot).lasers[scan.laser]; }
 };
 
+/// Eq. 11: where the robot is after this motion. What was open before it stays open: along a direction that the scans
+/// leave weak, odometry's errors would else be taken for certain, scan by scan, and add up.
+[[nodiscard]] PosePrior predict(const RobotState& robot, const Motion& motion);
+
 /// CPU seconds of this thread so far.
 [[nodiscard]] double thread_seconds();
 

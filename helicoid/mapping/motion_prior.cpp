@@ -43,10 +43,10 @@ Vector3d MotionPrior::sigma(double path, double turn) const {
   return std::sqrt(scale_) * Vector3d(position, position, heading);
 }
 
-Matrix3d MotionPrior::information(const Motion& motion) const {
+Matrix3d MotionPrior::covariance(const Motion& motion) const {
   const Vector3d s =
       sigma(motion.T_last_now.distance(), std::abs(motion.T_last_now.yaw)) * (motion.measured ? 1 : kUnmeasuredFactor);
-  return s.cwiseAbs2().cwiseInverse().asDiagonal();
+  return s.cwiseAbs2().asDiagonal();
 }
 
 Matrix3d MotionPrior::path_information(double path, double turn) const {

@@ -32,9 +32,9 @@ class MotionPrior {
   [[nodiscard]] bool in_doubt() const { return in_doubt_; }
   /// The last matched motion, as a prediction of the next.
   [[nodiscard]] Motion constant_velocity() const { return {velocity_, false, false}; }
-  /// Information about the pose after this motion, in the frame in which the robot's pose before it is given.
-  [[nodiscard]] Matrix3d information(const Motion& motion) const;
-  /// The same for the raw motion between two kept patches that lie this far apart along the path.
+  /// How well this motion is known: of T_last_now.
+  [[nodiscard]] Matrix3d covariance(const Motion& motion) const;
+  /// Information about the raw motion between two kept patches that lie this far apart along the path.
   [[nodiscard]] Matrix3d path_information(double path, double turn) const;
 
  private:

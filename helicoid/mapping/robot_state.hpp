@@ -13,7 +13,9 @@ namespace helicoid {
 struct RobotState {
   std::vector<ScanPointExtractor> extractors;  ///< one a laser
   MotionPrior motion;
-  ManifoldPose pose;              ///< rho_t; its patch is the anchor
+  ManifoldPose pose;  ///< rho_t; its patch is the anchor
+  /// Of pose.T_patch_robot, in the anchor's frame: what the matches have left open so far.
+  Matrix3d covariance = Matrix3d::Zero();
   LocalMap local;                 ///< about the anchor
   Reference reference;            ///< in the anchor's frame
   Pose2 T_anchor_reference_view;  ///< from where the reference was chosen

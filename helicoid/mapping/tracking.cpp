@@ -1,4 +1,5 @@
 // Where a robot stands: the reference that its scan is matched with, the match, and the patch that it stands on.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -6,6 +7,12 @@
 #include "helicoid/mapping/new_ground.hpp"
 
 namespace helicoid {
+
+PosePrior predict(const RobotState& robot, const Motion& motion) {
+  const UncertainPose2 T_anchor_now =
+      compound({robot.pose.T_patch_robot, robot.covariance}, {motion.T_last_now, robot.motion.covariance(motion)});
+  return {T_anchor_now.T_a_b, T_anchor_now.covariance.inverse()};
+}
 
 void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot) {
   if (!robot.stale && !has_moved(robot.T_anchor_reference_view, T_anchor_robot, options.reference_renewal,
@@ -34,9 +41,7 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
   Alignment alignment = align_scan(robot.reference, points, prior, align);
   if (robot.motion.in_doubt() || alignment.inlier_share < options.good_inlier_share) {
     const Motion steady = robot.motion.constant_velocity();
-    const Alignment other =
-        align_scan(robot.reference, points,
-                   {robot.pose.T_patch_robot * steady.T_last_now, robot.motion.information(steady)}, align);
+    const Alignment other = align_scan(robot.reference, points, predict(robot, steady), align);
     if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
   }
   if (alignment.status == AlignStatus::too_few_inliers || alignment.inlier_share < options.good_inlier_share) {
@@ -51,17 +56,19 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
 Alignment Mapper::State::match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior,
                                           const Alignment& failed, const LaserModel& laser) {
   const ManifoldPose pose = robot.pose;
+  const Matrix3d covariance = robot.covariance;
   const PosePrior there = prior;
   const Pose2 T_last_anchor = map.T_plane_patch(robot.last_kept).inverse() * map.T_plane_patch(pose.patch);
   robot.pose = {robot.last_kept, T_last_anchor * pose.T_patch_robot};
-  Matrix3d J = Matrix3d::Identity();
-  J.topLeftCorner<2, 2>() = T_last_anchor.rotation().transpose();
-  prior = {T_last_anchor * there.T_reference_scan, J.transpose() * there.information * J};
+  robot.covariance = turned(covariance, T_last_anchor.yaw);
+  // An information turns as a covariance does.
+  prior = {T_last_anchor * there.T_reference_scan, turned(there.information, T_last_anchor.yaw)};
   robot.stale = true;
   renew_reference(robot, points, prior.T_reference_scan);
   Alignment alignment = match(robot, points, prior, laser);
   if (alignment.usable()) return alignment;
   robot.pose = pose;
+  robot.covariance = covariance;
   prior = there;
   robot.stale = true;
   renew_reference(robot, points, prior.T_reference_scan);
@@ -80,6 +87,7 @@ void Mapper::State::reanchor(RobotState& robot) {
   const double then = T_best_robot.distance() + 1.5 * std::abs(T_best_robot.yaw);
   if (then > kHysteresis * now - 0.05) return;
   robot.pose = {best.patch, T_best_robot};
+  robot.covariance = turned(robot.covariance, -best.T_anchor_patch.yaw);
   robot.stale = true;
 }
 

@@ -1,0 +1,55 @@
+// What becomes of a robot whose odometry misleads it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "helicoid/mapping/mapper.hpp"
+#include "tests/known_building.hpp"
+
+namespace helicoid {
+namespace {
+
+using synthetic::Drive;
+using synthetic::lms200;
+using synthetic::look;
+
+/// Into a blind corridor and slowly out of it again, backwards: few beams tell of the way along it. The odometry counts
+/// wheel turns and knows no backwards, as that of some recorded logs.
+Drive out_of_a_blind_corridor(std::uint64_t seed) {
+  constexpr double kStep = 0.01;
+  constexpr int kSteps = 60;
+  const std::vector<Segment> corridor{{{0, 0}, {6, 0}}, {{6, 0}, {6, 3}}, {{6, 3}, {0, 3}}, {{0, 3}, {0, 0}}};
+  const RayCaster walls(corridor);
+  Random random(seed);
+  Drive result;
+  Pose2 T_world_robot{1, 1.5, 0};
+  Pose2 T_odom_robot;
+  for (int k = -kSteps; k < kSteps; ++k) {
+    T_world_robot.x += k < 0 ? kStep : -kStep;
+    T_odom_robot = T_odom_robot * Pose2{kStep * (1 + 0.02 * random.normal()), 0, 0.002 * random.normal()};
+    Scan scan = look(walls, lms200(), T_world_robot);
+    for (float& range : scan.ranges) range += 0.01F * static_cast<float>(random.normal());
+    scan.T_odom_robot = T_odom_robot;
+    result.events.push_back({make_id<RobotId>(0), 0.2 * static_cast<double>(result.truth.size()), scan});
+    result.truth.push_back(T_world_robot);
+  }
+  return result;
+}
+
+TEST(Tracking, OdometryDoesNotOutweighWhatScanAfterScanSays) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Drive d = out_of_a_blind_corridor(seed);
+    Mapper mapper;
+    mapper.add_robot("robot1", {lms200()});
+    double worst = 0;
+    for (std::size_t i = 0; i < d.events.size(); ++i) {
+      const Step step = mapper.process(d.events[i]);
+      const Pose2 T_first_now = d.truth[0].inverse() * d.truth[i];
+      worst = std::max(worst, (T_first_now.inverse() * mapper.map().project(step.pose)).distance());
+    }
+    EXPECT_LT(worst, 0.05) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace helicoid
