@@ -18,7 +18,6 @@ struct UncertainPose2 {
 [[nodiscard]] UncertainPose2 invert(const UncertainPose2& ab);
 /// J C J^T made exactly symmetric.
 [[nodiscard]] Matrix3d transport(const Matrix3d& jacobian, const Matrix3d& covariance);
-
 /// The covariance of (x, y, yaw) with its axes turned by `yaw`.
 [[nodiscard]] Matrix3d turned(const Matrix3d& covariance, double yaw);
 

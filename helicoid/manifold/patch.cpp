@@ -42,4 +42,9 @@ bool contains(const Patch& patch, const Vector2d& p_patch) {
   return range * (r0 * std::sin(a) + r1 * std::sin(b)) <= r0 * r1 * std::sin(laser.bearing_step);
 }
 
+bool is_ground(const Patch& patch, const Vector2d& p_patch) {
+  constexpr double kBody = 0.25;  // metres about the robot's origin
+  return p_patch.squaredNorm() <= kBody * kBody || contains(patch, p_patch);
+}
+
 }  // namespace helicoid

@@ -34,4 +34,8 @@ struct Patch {
 /// True if p_patch lies in the free-space polygon; O(1) by its star shape.
 [[nodiscard]] bool contains(const Patch& patch, const Vector2d& p_patch);
 
+/// True if p_patch is a place where a robot can be by this patch: in its free space, or where the body of the robot
+/// that took the scan stood, which no laser sees.
+[[nodiscard]] bool is_ground(const Patch& patch, const Vector2d& p_patch);
+
 }  // namespace helicoid

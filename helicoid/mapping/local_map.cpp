@@ -13,9 +13,9 @@ namespace {
 /// Turned by a radian, a view has changed as much as over this many metres.
 constexpr double kMetresPerRadian = 1.5;
 
-double view_distance(const Pose2& T_anchor_patch, const Pose2& T_anchor_robot) {
-  return std::hypot(T_anchor_patch.x - T_anchor_robot.x, T_anchor_patch.y - T_anchor_robot.y) +
-         kMetresPerRadian * std::abs(wrap_angle(T_anchor_patch.yaw - T_anchor_robot.yaw));
+double view_distance(const Pose2& T_anchor_a, const Pose2& T_anchor_b) {
+  return std::hypot(T_anchor_a.x - T_anchor_b.x, T_anchor_a.y - T_anchor_b.y) +
+         kMetresPerRadian * std::abs(wrap_angle(T_anchor_a.yaw - T_anchor_b.yaw));
 }
 
 /// Surfaces of a scan that stand for all of them.
@@ -107,6 +107,23 @@ LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId a
       bound_options(map.patch(anchor), options.reference_position, options.reference_heading, options.local_radius);
   bound.most = options.local_patches;
   return find_local_map(map, graph, anchor, bound);
+}
+
+std::optional<std::size_t> choose_anchor(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot) {
+  constexpr double kMuchNearer = 0.8;
+  constexpr double kNearer = 0.05;
+  std::optional<std::size_t> nearest;
+  double least = 0;
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    double distance = view_distance(local[i].T_anchor_patch, T_anchor_robot);
+    if (i == 0) distance = kMuchNearer * distance - kNearer;
+    if (nearest && distance >= least) continue;
+    const Vector2d p_patch = local[i].T_anchor_patch.inverse() * T_anchor_robot.translation();
+    if (!is_ground(map.patch(local[i].patch), p_patch)) continue;
+    nearest = i;
+    least = distance;
+  }
+  return nearest;
 }
 
 std::vector<LocalPatch> nearest_views(const LocalMap& local, const Pose2& T_anchor_robot, std::size_t most) {

@@ -1,6 +1,7 @@
 // The local map of eq. 12: the patches near the robot's patch and well fitted with respect to it.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,12 @@ using LocalMap = std::vector<LocalPatch>;
 /// The patches nearest to a robot at this pose, those that look the same way first.
 [[nodiscard]] std::vector<LocalPatch> nearest_views(const LocalMap& local, const Pose2& T_anchor_robot,
                                                     std::size_t most);
+
+/// Eq. 14: on which patch a robot at this pose stands, as its place in the local map: the nearest of those that know
+/// the robot's place (paper III-A: r lies inside s), but the anchor as long as it does and is not much farther, so that
+/// the anchor does not flutter. Nothing where no patch knows the robot's place.
+[[nodiscard]] std::optional<std::size_t> choose_anchor(const Map& map, const LocalMap& local,
+                                                       const Pose2& T_anchor_robot);
 
 /// The patches to match a scan with: the one kept last, and those that together saw most of the surfaces that the scan
 /// sees, whichever way they look. Every second one is the oldest of the good ones, so that whoever re-walks known

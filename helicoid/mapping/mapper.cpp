@@ -22,15 +22,8 @@ double thread_seconds() {
 Step Mapper::State::step(const Event& event, const Scan& scan) {
   RobotState& robot = robots[event.robot.index()];
   const LaserModel& laser = laser_of(event.robot, scan);
-  const Motion motion = robot.motion.advance(scan, event.stamp);
-  ++counts.scans;
-  if (motion.impossible) ++counts.odometry_jumps;
-  if (!scan.has_odometry) ++counts.scans_without_odometry;
+  const Motion motion = advance(robot, event, scan);
   if (!robot.pose.patch.valid()) return start_island(robot, event, scan);
-
-  robot.T_kept_robot_raw = robot.T_kept_robot_raw * motion.T_last_now;
-  robot.path += motion.T_last_now.distance();
-  robot.turn += std::abs(motion.T_last_now.yaw);
 
   // Steps 2 to 4: the local map, the match, the fit.
   PosePrior prior = predict(robot, motion);
@@ -45,33 +38,17 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   result.iterations = alignment.iterations;
   result.inlier_share = alignment.inlier_share;
   result.status = alignment.usable() ? StepStatus::matched : StepStatus::predicted;
-  TrackedScan tracked;
-  if (alignment.usable()) {
-    ++counts.matched;
-    robot.motion.learn(motion, robot.pose.T_patch_robot.inverse() * alignment.T_reference_scan);
-    robot.pose.T_patch_robot = alignment.T_reference_scan;
-  } else {
-    ++counts.predicted;
-    if (points.size() == 0) ++counts.empty_scans;
-    robot.pose.T_patch_robot = prior.T_reference_scan;
+  follow(robot, motion, prior, alignment, laser);
+  if (points.size() == 0) ++counts.empty_scans;
+  // Where no patch knows the robot's place, the scan makes one that does: r lies inside s (III-A).
+  const std::optional<std::size_t> ground = choose_anchor(map, robot.local, robot.pose.T_patch_robot);
+  if ((!ground && alignment.usable()) || is_worth_keeping(robot, alignment, scan, points.size(), laser)) {
+    result.new_patch = keep(robot, event, scan);
+  } else if (ground) {
+    stand_on(robot, robot.local[*ground]);
   }
-  const Matrix3d information =
-      prior.information + (alignment.usable() ? Matrix3d(alignment.information / laser.kappa) : Matrix3d::Zero());
-  robot.covariance = information.inverse();
-  tracked.covariance = robot.covariance;
-
-  const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
-  const bool keep_it = is_worth_keeping(robot, alignment, scan, points.size(), laser);
-  if (keep_it) {
-    result.new_patch = keep(robot, event, scan, {T_anchor_robot, information});
-    tracked.covariance.setZero();
-  }
-  tracked.stamp = event.stamp;
-  tracked.pose = robot.pose;
-  tracked.T_island_robot_online = map.project(robot.pose);
-  editor.append_scan(event.robot, tracked);
   result.pose = robot.pose;
-  if (!keep_it) reanchor(robot);
+  editor.append_scan(event.robot, {event.stamp, robot.pose, map.project(robot.pose), robot.covariance});
   return result;
 }
 
@@ -129,19 +106,20 @@ Step Mapper::State::start_island(RobotState& robot, const Event& event, const Sc
   return {StepStatus::first, robot.pose, id, 0, 0};
 }
 
-PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched) {
+PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& scan) {
   const LaserModel& laser = laser_of(event.robot, scan);
   const PatchId anchor = robot.pose.patch;
+  const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
   const PatchId id = make_id<PatchId>(map.patch_count());
   Patch patch = make_patch(id, event.robot, map.robot(event.robot).trajectory.size(), event.stamp, scan, laser);
   const std::vector<LocalPatch> views =
-      select_views(map, robot.local, patch.points, matched.T_reference_scan, robot.last_kept, options.relation_views);
+      select_views(map, robot.local, patch.points, T_anchor_robot, robot.last_kept, options.relation_views);
   RelateOptions relate_options;
   relate_options.kappa = laser.kappa;
   relate_options.match.incidence_bias = laser.incidence_bias;
   // The prior of the new patch's fit is odometry's only: the match's own beams must not count twice.
   const RelatedPatch related =
-      relate(map, views, patch.points, {matched.T_reference_scan, 1e-3 * Matrix3d::Identity()}, relate_options);
+      relate(map, views, patch.points, {T_anchor_robot, 1e-3 * Matrix3d::Identity()}, relate_options);
   editor.add_patch(std::move(patch), map.T_plane_patch(anchor) * related.T_anchor_patch, map.island_of(anchor));
   graph.add_pose();
   for (const NewRelation& r : related.relations) {

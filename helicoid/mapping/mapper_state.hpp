@@ -24,6 +24,9 @@ struct Mapper::State {
   std::size_t patches_at_last_fit = 0;
 
   Step step(const Event& event, const Scan& scan);
+  Motion advance(RobotState& robot, const Event& event, const Scan& scan);
+  void follow(RobotState& robot, const Motion& motion, const PosePrior& prior, const Alignment& alignment,
+              const LaserModel& laser);
   Step start_island(RobotState& robot, const Event& event, const Scan& scan);
   void renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot);
   Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const LaserModel& laser);
@@ -33,12 +36,12 @@ struct Mapper::State {
                         const LaserModel& laser) const;
   void take(const Event& event, const Sighting& sighting);
   void join_what_is_determined(bool last);
-  PatchId keep(RobotState& robot, const Event& event, const Scan& scan, const PosePrior& matched);
+  PatchId keep(RobotState& robot, const Event& event, const Scan& scan);
   void relate_to_last(RobotState& robot, PatchId id);
   void look_for_loops(PatchId id, const LocalMap& known);
   void look_for_loops_again();
   void add_relation(const Relation& relation);
-  void reanchor(RobotState& robot);
+  void stand_on(RobotState& robot, const LocalPatch& ground);
   const LaserModel& laser_of(RobotId robot, const Scan& scan) const { return map.robot(robot).lasers[scan.laser]; }
 };
 

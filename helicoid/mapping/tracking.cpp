@@ -75,19 +75,38 @@ Alignment Mapper::State::match_on_own_way(RobotState& robot, const ScanPoints& p
   return failed;
 }
 
-void Mapper::State::reanchor(RobotState& robot) {
-  // Eq. 14: the nearest patch of the local map that overlaps; with hysteresis, so that the anchor does not flutter.
-  constexpr double kHysteresis = 0.8;
-  const std::vector<LocalPatch> nearest = nearest_views(robot.local, robot.pose.T_patch_robot, 1);
-  const LocalPatch& best = nearest.front();
-  if (best.patch == robot.pose.patch) return;
-  const Pose2 T_best_robot = best.T_anchor_patch.inverse() * robot.pose.T_patch_robot;
-  const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
-  const double now = T_anchor_robot.distance() + 1.5 * std::abs(T_anchor_robot.yaw);
-  const double then = T_best_robot.distance() + 1.5 * std::abs(T_best_robot.yaw);
-  if (then > kHysteresis * now - 0.05) return;
-  robot.pose = {best.patch, T_best_robot};
-  robot.covariance = turned(robot.covariance, -best.T_anchor_patch.yaw);
+Motion Mapper::State::advance(RobotState& robot, const Event& event, const Scan& scan) {
+  const Motion motion = robot.motion.advance(scan, event.stamp);
+  ++counts.scans;
+  if (motion.impossible) ++counts.odometry_jumps;
+  if (!scan.has_odometry) ++counts.scans_without_odometry;
+  if (!robot.pose.patch.valid()) return motion;
+  robot.T_kept_robot_raw = robot.T_kept_robot_raw * motion.T_last_now;
+  robot.path += motion.T_last_now.distance();
+  robot.turn += std::abs(motion.T_last_now.yaw);
+  return motion;
+}
+
+void Mapper::State::follow(RobotState& robot, const Motion& motion, const PosePrior& prior, const Alignment& alignment,
+                           const LaserModel& laser) {
+  Pose2& T_anchor_robot = robot.pose.T_patch_robot;
+  Matrix3d information = prior.information;
+  if (alignment.usable()) {
+    ++counts.matched;
+    robot.motion.learn(motion, T_anchor_robot.inverse() * alignment.T_reference_scan);
+    T_anchor_robot = alignment.T_reference_scan;
+    information += alignment.information / laser.kappa;
+  } else {
+    ++counts.predicted;
+    T_anchor_robot = prior.T_reference_scan;
+  }
+  robot.covariance = information.inverse();
+}
+
+void Mapper::State::stand_on(RobotState& robot, const LocalPatch& ground) {
+  if (ground.patch == robot.pose.patch) return;
+  robot.pose = {ground.patch, ground.T_anchor_patch.inverse() * robot.pose.T_patch_robot};
+  robot.covariance = turned(robot.covariance, -ground.T_anchor_patch.yaw);
   robot.stale = true;
 }
 
