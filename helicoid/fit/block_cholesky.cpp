@@ -134,30 +134,49 @@ bool BlockCholesky::factorise(const BlockMatrix& H, double damping) {
   return true;
 }
 
+void BlockCholesky::gather(const Supernode& s, std::span<const double> x, std::vector<double>& below) const {
+  below.assign(static_cast<std::size_t>(padded(kBlock * s.below)), 0.0);
+  double* to = below.data();
+  for (const std::int32_t row : supernodes_->rows_of(s)) {
+    const double* from = x.data() + kBlock * static_cast<std::size_t>(row);
+    for (int i = 0; i < kBlock; ++i) *to++ = from[i];
+  }
+}
+
+void BlockCholesky::forward(const Supernode& s, std::span<double> x, std::vector<double>& below) const {
+  gather(s, x, below);
+  kernels_->forward(s.shape(), panels_.data() + s.panel, x.data() + kBlock * s.first, below.data());
+  const double* from = below.data();
+  for (const std::int32_t row : supernodes_->rows_of(s)) {
+    double* to = x.data() + kBlock * static_cast<std::size_t>(row);
+    for (int i = 0; i < kBlock; ++i) to[i] = *from++;
+  }
+}
+
 void BlockCholesky::solve(std::span<double> x) const {
   const auto& tree = supernodes_->tree;
   std::vector<double> below;
-  const auto gather = [&](const Supernode& s) {
-    below.assign(static_cast<std::size_t>(padded(kBlock * s.below)), 0.0);
-    double* to = below.data();
-    for (const std::int32_t row : supernodes_->rows_of(s)) {
-      for (int i = 0; i < kBlock; ++i) *to++ = x[kBlock * static_cast<std::size_t>(row) + static_cast<std::size_t>(i)];
-    }
-  };
-  for (const Supernode& s : tree) {
-    gather(s);
-    kernels_->forward(s.shape(), panels_.data() + s.panel, x.data() + kBlock * s.first, below.data());
-    const double* from = below.data();
-    for (const std::int32_t row : supernodes_->rows_of(s)) {
-      for (int i = 0; i < kBlock; ++i)
-        x[kBlock * static_cast<std::size_t>(row) + static_cast<std::size_t>(i)] = *from++;
-    }
-  }
+  for (const Supernode& s : tree) forward(s, x, below);
   for (std::size_t k = tree.size(); k-- > 0;) {
-    gather(tree[k]);
+    gather(tree[k], x, below);
     kernels_->backward(tree[k].shape(), panels_.data() + tree[k].panel, x.data() + kBlock * tree[k].first,
                        below.data());
   }
+}
+
+std::vector<std::int32_t> BlockCholesky::forward_along(std::span<const std::int32_t> nodes,
+                                                       std::span<std::vector<double>> columns) const {
+  std::vector<std::int32_t> path;
+  for (const std::int32_t node : nodes) {
+    for (std::int32_t k = supernodes_->of[node]; k >= 0; k = supernodes_->tree[k].parent) path.push_back(k);
+  }
+  std::sort(path.begin(), path.end());
+  path.erase(std::unique(path.begin(), path.end()), path.end());
+  std::vector<double> below;
+  for (const std::int32_t k : path) {
+    for (std::vector<double>& x : columns) forward(supernodes_->tree[k], x, below);
+  }
+  return path;
 }
 
 }  // namespace helicoid

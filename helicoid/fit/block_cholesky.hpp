@@ -32,6 +32,10 @@ class BlockCholesky {
   bool factorise(const BlockMatrix& H, double damping = 0);
   /// H x = right, in place, in elimination order; three doubles a node.
   void solve(std::span<double> x) const;
+  /// L y = x in place, for columns x that are zero but at these nodes: along their paths to the root, since y is zero
+  /// elsewhere. The supernodes where it is not, ascending.
+  std::vector<std::int32_t> forward_along(std::span<const std::int32_t> nodes,
+                                          std::span<std::vector<double>> columns) const;
   /// The diagonal blocks of H^-1, nine doubles a node (selected inversion on the supernodes).
   [[nodiscard]] std::vector<double> inverse_diagonal() const;
 
@@ -43,6 +47,8 @@ class BlockCholesky {
   void assemble(const BlockMatrix& H, const Supernode& s, double damping);
   void add_update(const Supernode& child, const double* update, const Supernode& parent, double* parent_update);
   void prepare(const BlockMatrix& H);
+  void gather(const Supernode& s, std::span<const double> x, std::vector<double>& below) const;
+  void forward(const Supernode& s, std::span<double> x, std::vector<double>& below) const;
 
   const Supernodes* supernodes_;
   const FrontKernels* kernels_;

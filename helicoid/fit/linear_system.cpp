@@ -163,6 +163,42 @@ std::vector<double> LinearSystem::newton_step() const {
   return step;
 }
 
+Eigen::Matrix<double, 3, 6> relative_jacobian(const Pose2& T_a_b) {
+  Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
+  J.block<3, 3>(0, 0) = -Matrix3d::Identity();
+  J(0, 2) = T_a_b.y;
+  J(1, 2) = -T_a_b.x;
+  J.block<2, 2>(0, 3) = T_a_b.rotation();
+  J(2, 5) = 1;
+  return J;
+}
+
+Matrix3d LinearSystem::relative_covariance(const Pose2& T_a_b, std::uint32_t a, std::uint32_t b) const {
+  const Eigen::Matrix<double, 3, 6> J = relative_jacobian(T_a_b);
+  const std::uint32_t ends[2] = {a, b};
+  // With L Y = J^T the covariance is Y^T Y: half a solve, and never indefinite.
+  std::vector<std::int32_t> places;
+  std::vector<double> y[3];
+  for (auto& column : y) column.assign(gradient_.size(), 0.0);
+  for (int k = 0; k < 2; ++k) {
+    if (ends[k] == kWorld || is_fixed(ends[k])) continue;
+    places.push_back(supernodes_.place[ends[k]]);
+    for (int c = 0; c < 3; ++c) {
+      for (int i = 0; i < 3; ++i) y[c][offset(ends[k]) + static_cast<std::size_t>(i)] = J(c, 3 * k + i);
+    }
+  }
+  Matrix3d covariance = Matrix3d::Zero();
+  for (const std::int32_t k : cholesky_.forward_along(places, y)) {
+    const Supernode& s = supernodes_.tree[k];
+    const auto begin = kBlock * static_cast<std::size_t>(s.first);
+    for (std::size_t i = begin; i < begin + kBlock * static_cast<std::size_t>(s.count); ++i) {
+      const Vector3d row(y[0][i], y[1][i], y[2][i]);
+      covariance += row * row.transpose();
+    }
+  }
+  return covariance;
+}
+
 std::vector<Pose2> LinearSystem::moved(std::span<const Pose2> poses, std::span<const double> step, double scale) const {
   std::vector<Pose2> result(poses.begin(), poses.end());
   for (std::uint32_t i = 0; i < result.size(); ++i) {

@@ -32,6 +32,9 @@ class LinearSystem {
   /// -H^-1 gradient, with the last factor. In elimination order, as the gradient; three numbers a node.
   [[nodiscard]] std::vector<double> newton_step() const;
   void solve(std::span<double> x) const { cholesky_.solve(x); }
+  /// Covariance of T_a_b, its (x, y, yaw) in a's frame: J H^-1 J^T with the last factor (eq. 10); `a` may be the
+  /// world. Costs the two nodes' paths to the root, not the graph.
+  [[nodiscard]] Matrix3d relative_covariance(const Pose2& T_a_b, std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::vector<double> inverse_diagonal() const { return cholesky_.inverse_diagonal(); }
 
   [[nodiscard]] const BlockMatrix& information() const { return H_; }
@@ -83,5 +86,8 @@ class LinearSystem {
   std::vector<double> gradient_;
   BlockCholesky cholesky_;
 };
+
+/// Derivative of (t_x, t_y, phi) of T_a_b by the twists (xi_a, xi_b); 3 x 6.
+[[nodiscard]] Eigen::Matrix<double, 3, 6> relative_jacobian(const Pose2& T_a_b);
 
 }  // namespace helicoid

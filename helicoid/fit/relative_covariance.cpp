@@ -4,16 +4,6 @@
 
 namespace helicoid {
 
-Eigen::Matrix<double, 3, 6> relative_jacobian(const Pose2& T_a_b) {
-  Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
-  J.block<3, 3>(0, 0) = -Matrix3d::Identity();
-  J(0, 2) = T_a_b.y;
-  J(1, 2) = -T_a_b.x;
-  J.block<2, 2>(0, 3) = T_a_b.rotation();
-  J(2, 5) = 1;
-  return J;
-}
-
 RelativeCovariance::RelativeCovariance(std::span<const Pose2> poses, std::span<const GraphEdge> edges)
     : RelativeCovariance(make_graph(poses, edges)) {}
 
@@ -40,25 +30,7 @@ bool RelativeCovariance::factorise(std::uint32_t held) {
 UncertainPose2 RelativeCovariance::of(std::uint32_t a, std::uint32_t b) const {
   UncertainPose2 result{graph_.poses[a].inverse() * graph_.poses[b], Matrix3d::Zero()};
   if (a == b) return result;
-  // cov(T_a_b) = J Sigma J^T with Sigma = H^-1: the columns J^T are the right-hand sides.
-  const Eigen::Matrix<double, 3, 6> J = relative_jacobian(result.T_a_b);
-  const std::uint32_t ends[2] = {a, b};
-  Eigen::Matrix<double, 6, 3> columns;
-  for (int c = 0; c < 3; ++c) {
-    std::vector<double> x(kBlock * graph_.poses.size(), 0.0);
-    for (int k = 0; k < 2; ++k) {
-      if (ends[k] == held_) continue;
-      for (int i = 0; i < 3; ++i) x[system_->offset(ends[k]) + static_cast<std::size_t>(i)] = J(c, 3 * k + i);
-    }
-    system_->solve(x);
-    for (int k = 0; k < 2; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        columns(3 * k + i, c) = ends[k] == held_ ? 0 : x[system_->offset(ends[k]) + static_cast<std::size_t>(i)];
-      }
-    }
-  }
-  const Matrix3d covariance = J * columns;
-  result.covariance = 0.5 * (covariance + covariance.transpose());
+  result.covariance = system_->relative_covariance(result.T_a_b, a, b);
   return result;
 }
 

@@ -37,7 +37,4 @@ class RelativeCovariance {
   bool determined_ = false;
 };
 
-/// Derivative of (t_x, t_y, phi) of T_a_b by the twists (xi_a, xi_b); 3 x 6.
-[[nodiscard]] Eigen::Matrix<double, 3, 6> relative_jacobian(const Pose2& T_a_b);
-
 }  // namespace helicoid
