@@ -1,156 +1,218 @@
 #include "helicoid/fit/consistent_start.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <numbers>
 
 #include "helicoid/fit/cpu_clock.hpp"
-#include "helicoid/fit/linear_system.hpp"
-#include "helicoid/fit/relative_covariance.hpp"
+#include "helicoid/fit/initial_guess.hpp"
+#include "helicoid/fit/innovation.hpp"
 
 namespace helicoid {
 
 namespace {
 
-/// How many relations lie between the ends of each open relation: the nearer, the better predicted.
-std::vector<std::uint32_t> hops(const RelationGraph& known, const RelationGraph& graph,
-                                std::span<const std::uint32_t> open) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  for (const GraphRelation& r : known.relations) {
-    if (r.a != kWorld) pairs.emplace_back(static_cast<std::int32_t>(r.a), static_cast<std::int32_t>(r.b));
+/// Noise has heavier tails than a Gaussian of its variance: gates are those of twice the standard deviation found, but
+/// never wider than stated noise makes them.
+double noise_scale(double variance_factor) {
+  constexpr double kCaution = 4;
+  return std::clamp(kCaution * variance_factor, 1e-3, 1.0);
+}
+
+/// Moves each component so that the poses that are held stand where they were.
+std::vector<Pose2> hold(std::vector<Pose2> poses, const RelationGraph& graph, std::span<const std::uint32_t> fixed) {
+  const std::vector<bool> is_fixed = [&] {
+    std::vector<bool> is(graph.poses.size(), false);
+    for (const std::uint32_t node : fixed) is[node] = true;
+    return is;
+  }();
+  for (const Component& component : find_components(graph)) {
+    const auto held = std::find_if(component.nodes.begin(), component.nodes.end(),
+                                   [&is_fixed](std::uint32_t node) { return is_fixed[node]; });
+    if (held == component.nodes.end()) continue;
+    const Pose2 move = graph.poses[*held] * poses[*held].inverse();
+    for (const std::uint32_t node : component.nodes) poses[node] = move * poses[node];
   }
-  const Adjacency ties = find_adjacency(static_cast<std::int32_t>(graph.poses.size()), pairs);
-  std::vector<std::uint32_t> result;
-  std::vector<std::uint32_t> distance(graph.poses.size());
-  std::vector<std::int32_t> queue;
-  for (const std::uint32_t i : open) {
-    const GraphRelation& r = graph.relations[i];
-    std::fill(distance.begin(), distance.end(), kWorld);
-    queue.assign(1, static_cast<std::int32_t>(r.a));
-    distance[r.a] = 0;
-    for (std::size_t at = 0; at < queue.size() && distance[r.b] == kWorld; ++at) {
-      for (const std::int32_t next : ties.of(queue[at])) {
-        if (distance[next] != kWorld) continue;
-        distance[next] = distance[queue[at]] + 1;
-        queue.push_back(next);
+  for (const std::uint32_t node : fixed) poses[node] = graph.poses[node];
+  return poses;
+}
+
+/// A relation that may be wrong, as it stands to the fit.
+struct Asked {
+  std::uint32_t relation;
+  Innovation innovation;
+};
+
+class Consistency {
+ public:
+  Consistency(const RelationGraph& graph, std::span<const std::uint32_t> fixed, const FitOptions& options)
+      : graph_(graph), fixed_(fixed), options_(options) {
+    start_.poses = graph.poses;
+    for (std::uint32_t i = 0; i < graph.relations.size(); ++i) {
+      start_.accepted.push_back(!graph.relations[i].may_be_wrong);
+      if (graph.relations[i].may_be_wrong) open_.push_back(i);
+    }
+    times_dropped_.assign(graph.relations.size(), 0);
+    constexpr double kErrors = 1e-3;
+    own_gate_ = options.loss.width * options.loss.width;
+    common_gate_ = own_gate_;
+    if (!open_.empty())
+      common_gate_ = std::max(own_gate_, chi_square_quantile(kErrors / static_cast<double>(open_.size())));
+  }
+
+  ConsistentStart run() {
+    const std::vector<std::uint32_t> all = open_;
+    grow(own_gate_);
+    std::swap(open_, refused_);
+    grow(common_gate_);
+    open_ = all;
+    settle();
+    return std::move(start_);
+  }
+
+ private:
+  [[nodiscard]] FittedPart fitted() const { return {graph_, start_.accepted, start_.poses, fixed_, options_}; }
+
+  /// While few relations held them, poses may have come to rest in a local optimum: a global start tells.
+  void leave_local_optimum() {
+    const FittedPart here = fitted();
+    const FittedPart there(graph_, start_.accepted, hold(chordal_start(here.graph()), here.graph(), fixed_), fixed_,
+                           options_);
+    start_.poses = there.cost() < here.cost() ? there.poses() : here.poses();
+  }
+
+  /// The relations of this side, with their innovations.
+  [[nodiscard]] std::vector<Asked> ask(const FittedPart& part, bool accepted) const {
+    std::vector<Asked> asked;
+    for (const std::uint32_t i : open_) {
+      if (start_.accepted[i] == accepted) asked.push_back({i, part.innovation(graph_.relations[i], accepted)});
+    }
+    return asked;
+  }
+
+  static void sort_by_volume(std::vector<Asked>& asked) {
+    std::stable_sort(asked.begin(), asked.end(),
+                     [](const Asked& l, const Asked& r) { return l.innovation.log_volume < r.innovation.log_volume; });
+  }
+
+  /// How much less those that agreed differ from their predictions than stated: where odometry is stated with caution,
+  /// a gate as wide as stated would let wrong relations in.
+  [[nodiscard]] double innovation_scale() const {
+    constexpr double kMedian = 2.366;  // of chi^2 with 3 degrees of freedom
+    constexpr std::size_t kEnough = 10;
+    if (agreed_.size() < kEnough) return 1;
+    std::vector<double> sorted = agreed_;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    return noise_scale(*middle / kMedian);
+  }
+
+  /// Takes in what agrees of the open relations, from the best predicted to the worst.
+  void grow(double gate) {
+    while (!open_.empty()) {
+      const FittedPart part = fitted();
+      start_.is_determined = start_.is_determined && part.is_determined();
+      if (!start_.is_determined) return;
+      start_.poses = part.poses();
+      std::vector<Asked> asked = ask(part, false);
+      sort_by_volume(asked);
+      // Some a round: what is taken in sharpens the prediction of the rest.
+      asked.resize(std::min(open_.size(), std::max<std::size_t>(30, asked_ / 4)));
+      asked_ += asked.size();
+      const double scaled = gate * innovation_scale();
+      std::vector<bool> is_asked(graph_.relations.size(), false);
+      for (const Asked& a : asked) {
+        const bool agrees = a.innovation.chi2 <= scaled;
+        start_.accepted[a.relation] = agrees;
+        if (agrees) agreed_.push_back(a.innovation.chi2);
+        if (!agrees) refused_.push_back(a.relation);
+        is_asked[a.relation] = true;
       }
+      std::erase_if(open_, [&is_asked](std::uint32_t i) { return is_asked[i]; });
     }
-    result.push_back(distance[r.b]);
   }
-  return result;
-}
 
-/// J Sigma J^T of T_a_b at the system's last factor.
-Matrix3d pair_covariance(const LinearSystem& system, std::span<const Pose2> poses, const GraphRelation& r) {
-  const Eigen::Matrix<double, 3, 6> J = relative_jacobian(poses[r.a].inverse() * poses[r.b]);
-  const std::uint32_t ends[2] = {r.a, r.b};
-  Matrix3d covariance;
-  for (int c = 0; c < 3; ++c) {
-    std::vector<double> x(kBlock * poses.size(), 0.0);
-    for (int k = 0; k < 2; ++k) {
-      for (int i = 0; i < 3 && !system.is_fixed(ends[k]); ++i)
-        x[system.offset(ends[k]) + static_cast<std::size_t>(i)] = J(c, 3 * k + i);
+  /// Lets go what the others contradict, the worst first: it may be why others look wrong. True if there was any.
+  bool drop(const FittedPart& part) {
+    std::vector<Asked> asked = ask(part, true);
+    double most = 0;
+    for (const Asked& a : asked) most = std::max(most, a.innovation.chi2);
+    if (most <= start_.gate) return false;
+    for (const Asked& a : asked) {
+      if (a.innovation.chi2 <= std::max(start_.gate, most / 2)) continue;
+      start_.accepted[a.relation] = false;
+      ++times_dropped_[a.relation];
     }
-    system.solve(x);
-    Eigen::Matrix<double, 6, 1> at;
-    for (int k = 0; k < 6; ++k)
-      at[k] = system.is_fixed(ends[k / 3]) ? 0 : x[system.offset(ends[k / 3]) + static_cast<std::size_t>(k % 3)];
-    covariance.col(c) = J * at;
+    return true;
   }
-  return 0.5 * (covariance + covariance.transpose());
-}
 
-/// chi^2 of the innovation of a pose-pose relation, weighed by its own and the prediction's covariance.
-double innovation(const LinearSystem& system, std::span<const Pose2> poses, const GraphRelation& r) {
-  const auto& m = std::get<PosePose>(r.measurement);
-  const Pose2 e = m.T_a_b.inverse() * (poses[r.a].inverse() * poses[r.b]);
-  Matrix3d turn = Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = m.T_a_b.rotation().transpose();
-  const Matrix3d S = turn * pair_covariance(system, poses, r) * turn.transpose() + m.information.inverse();
-  return e.vector().dot(S.inverse() * e.vector());
-}
-
-RelationGraph known_part(const RelationGraph& graph, const ConsistentStart& start) {
-  RelationGraph known;
-  known.poses = start.poses;
-  known.is_landmark = graph.is_landmark;
-  for (std::size_t i = 0; i < graph.relations.size(); ++i) {
-    if (start.accepted[i]) known.relations.push_back(graph.relations[i]);
+  /// Takes in what agrees with the others, the better predicted half. True if there was any.
+  bool take_in(const FittedPart& part) {
+    constexpr int kMostDrops = 2;  // what comes and goes is left out
+    std::vector<Asked> asked = ask(part, false);
+    std::erase_if(asked, [this](const Asked& a) {
+      return a.innovation.chi2 > start_.gate || times_dropped_[a.relation] == kMostDrops;
+    });
+    sort_by_volume(asked);
+    asked.resize((asked.size() + 1) / 2);
+    for (const Asked& a : asked) start_.accepted[a.relation] = true;
+    return !asked.empty();
   }
-  return known;
-}
 
-/// How much smaller chi^2 is than stated noise would make it: information is often stated with caution, and then a gate
-/// as wide as stated lets wrong relations in. The median of what agreed, over that of chi^2 with 3 degrees of freedom.
-double noise_scale(std::vector<double> agreed) {
-  constexpr double kMedian = 2.366;
-  constexpr std::size_t kEnough = 10;
-  if (agreed.size() < kEnough) return 1;
-  const auto middle = agreed.begin() + static_cast<std::ptrdiff_t>(agreed.size() / 2);
-  std::nth_element(agreed.begin(), middle, agreed.end());
-  constexpr double kCaution = 4;  // nearest ones agree best
-  return std::clamp(kCaution * *middle / kMedian, 1e-3, 1.0);
-}
+  void settle() {
+    constexpr int kMostRounds = 200;
+    bool changes = start_.is_determined;
+    if (changes) leave_local_optimum();
+    for (int round = 0; changes && round < kMostRounds; ++round) {
+      const FittedPart part = fitted();
+      start_.is_determined = part.is_determined();
+      if (!start_.is_determined) return;
+      start_.poses = part.poses();
+      start_.gate = common_gate_ * noise_scale(part.variance_factor());
+      changes = drop(part) || take_in(part);
+    }
+  }
+
+  const RelationGraph& graph_;
+  std::span<const std::uint32_t> fixed_;
+  const FitOptions& options_;
+  ConsistentStart start_;
+  double own_gate_ = 0;
+  double common_gate_ = 0;
+  std::vector<std::uint32_t> open_;
+  std::vector<std::uint32_t> refused_;
+  std::vector<int> times_dropped_;  ///< of each relation
+  std::vector<double> agreed_;      ///< chi^2 of innovations
+  std::size_t asked_ = 0;
+};
 
 }  // namespace
 
+double chi_square_quantile(double exceedance) {
+  // With 3 degrees of freedom P(chi^2 > q) = erfc(sqrt(q/2)) + sqrt(2q/pi) exp(-q/2), which falls.
+  const auto exceeds = [](double q) {
+    return std::erfc(std::sqrt(q / 2)) + std::sqrt(2 * q / std::numbers::pi) * std::exp(-q / 2);
+  };
+  double low = 0;
+  double high = 1;
+  while (exceeds(high) > exceedance) high *= 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (exceeds(middle) > exceedance ? low : high) = middle;
+  }
+  return high;
+}
+
 ConsistentStart consistent_start(const RelationGraph& graph, std::span<const std::uint32_t> fixed,
                                  const FitOptions& options) {
-  ConsistentStart start{graph.poses, std::vector<bool>(graph.relations.size(), true), true, 0};
-  const CpuTimer timer(start.cpu_s);
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t i = 0; i < graph.relations.size(); ++i) {
-    if (!graph.relations[i].may_be_wrong) continue;
-    start.accepted[i] = false;
-    if (std::holds_alternative<PosePose>(graph.relations[i].measurement)) open.push_back(i);
+  double seconds = 0;
+  ConsistentStart start;
+  {
+    const CpuTimer timer(seconds);
+    start = Consistency(graph, fixed, options).run();
   }
-  FitOptions plain = options;
-  plain.loss = {};
-  std::vector<std::uint32_t> refused;
-  std::vector<double> agreed;
-  std::size_t total = 0;
-  // Refused ones are asked again, more kindly: long chains bend further than their covariance says.
-  int passes = 0;
-  while (true) {
-    const RelationGraph known = known_part(graph, start);
-    start.poses = fit(known, fixed, plain).poses;
-    if (open.empty()) {
-      constexpr int kMostPasses = 6;
-      if (++passes == kMostPasses) return start;
-      std::swap(open, refused);
-    }
-    if (open.empty()) return start;
-    LinearSystem system(known, fixed);
-    system.linearise(start.poses);
-    start.is_determined = system.factorise();
-    if (!start.is_determined) return start;
-    const std::vector<std::uint32_t> distance = hops(known, graph, open);
-    std::vector<std::size_t> by_distance(open.size());
-    std::iota(by_distance.begin(), by_distance.end(), std::size_t{0});
-    std::stable_sort(by_distance.begin(), by_distance.end(),
-                     [&](std::size_t l, std::size_t r) { return distance[l] < distance[r]; });
-    // Some a round: what is taken in sharpens the prediction of the rest.
-    by_distance.resize(std::min(open.size(), std::max<std::size_t>(30, total / 4)));
-    const double gate = options.loss.width * options.loss.width * noise_scale(agreed) * std::exp2(passes);
-    total += by_distance.size();
-    std::vector<bool> asked(open.size(), false);
-    for (const std::size_t k : by_distance) {
-      asked[k] = true;
-      const double chi2 = innovation(system, start.poses, graph.relations[open[k]]);
-      if (chi2 > gate) {
-        refused.push_back(open[k]);
-        continue;
-      }
-      start.accepted[open[k]] = true;
-      agreed.push_back(chi2);
-    }
-    std::vector<std::uint32_t> rest;
-    for (std::size_t k = 0; k < open.size(); ++k) {
-      if (!asked[k]) rest.push_back(open[k]);
-    }
-    open = std::move(rest);
-  }
+  start.cpu_s = seconds;
+  return start;
 }
 
 }  // namespace helicoid

@@ -11,20 +11,6 @@ namespace helicoid {
 
 namespace {
 
-std::int64_t residuals_of(const Measurement& measurement) {
-  if (std::holds_alternative<PosePose>(measurement) || std::holds_alternative<Correspondences>(measurement)) return 3;
-  return std::holds_alternative<PointPosition>(measurement) ? 2 : 1;
-}
-
-/// What correspondences cost at their own best is no contradiction between relations.
-double least_cost(const RelationGraph& graph) {
-  double sum = 0;
-  for (const GraphRelation& r : graph.relations) {
-    if (const auto* m = std::get_if<Correspondences>(&r.measurement)) sum += m->scale * m->least_cost;
-  }
-  return sum;
-}
-
 /// The 99.9 % quantile of chi^2 (Wilson and Hilferty 1931).
 double chi_square_bound(std::int64_t degrees) {
   const auto k = static_cast<double>(degrees);
@@ -62,14 +48,6 @@ StartedFit fit_at(const RelationGraph& given, FitStart start, const FitOptions& 
 }
 
 }  // namespace
-
-std::int64_t degrees_of_freedom(const RelationGraph& graph) {
-  std::int64_t degrees = 0;
-  for (const GraphRelation& r : graph.relations) degrees += residuals_of(r.measurement);
-  for (std::size_t i = 0; i < graph.poses.size(); ++i)
-    degrees -= !graph.is_landmark.empty() && graph.is_landmark[i] ? 2 : 3;
-  return degrees + 3 * static_cast<std::int64_t>(default_gauge(graph).size());
-}
 
 StartedFit fit_from(const RelationGraph& graph, FitStart start, const FitOptions& options) {
   if (start != FitStart::automatic) return fit_at(graph, start, options);

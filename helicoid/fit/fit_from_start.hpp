@@ -24,7 +24,4 @@ struct StartedFit {
 
 [[nodiscard]] StartedFit fit_from(const RelationGraph& graph, FitStart start, const FitOptions& options = {});
 
-/// Residuals less unknowns, the gauge not counted; correspondences count three residuals a pair.
-[[nodiscard]] std::int64_t degrees_of_freedom(const RelationGraph& graph);
-
 }  // namespace helicoid

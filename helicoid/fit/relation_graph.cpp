@@ -4,6 +4,15 @@
 
 namespace helicoid {
 
+namespace {
+
+std::int64_t residuals_of(const Measurement& measurement) {
+  if (std::holds_alternative<PosePose>(measurement) || std::holds_alternative<Correspondences>(measurement)) return 3;
+  return std::holds_alternative<PointPosition>(measurement) ? 2 : 1;
+}
+
+}  // namespace
+
 std::vector<Component> find_components(const RelationGraph& graph) {
   std::vector<std::uint32_t> root(graph.poses.size());
   std::iota(root.begin(), root.end(), 0U);
@@ -51,6 +60,22 @@ std::vector<std::uint32_t> default_gauge(const RelationGraph& graph) {
     gauge.push_back(first);
   }
   return gauge;
+}
+
+std::int64_t degrees_of_freedom(const RelationGraph& graph) {
+  std::int64_t degrees = 0;
+  for (const GraphRelation& r : graph.relations) degrees += residuals_of(r.measurement);
+  for (std::size_t i = 0; i < graph.poses.size(); ++i)
+    degrees -= !graph.is_landmark.empty() && graph.is_landmark[i] ? 2 : 3;
+  return degrees + 3 * static_cast<std::int64_t>(default_gauge(graph).size());
+}
+
+double least_cost(const RelationGraph& graph) {
+  double sum = 0;
+  for (const GraphRelation& r : graph.relations) {
+    if (const auto* m = std::get_if<Correspondences>(&r.measurement)) sum += m->scale * m->least_cost;
+  }
+  return sum;
 }
 
 }  // namespace helicoid

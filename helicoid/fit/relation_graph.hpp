@@ -36,4 +36,10 @@ struct Component {
 /// The gauge: the first pose of every component that no prior ties to the world.
 [[nodiscard]] std::vector<std::uint32_t> default_gauge(const RelationGraph& graph);
 
+/// Residuals less unknowns, the gauge not counted; correspondences count three residuals a pair.
+[[nodiscard]] std::int64_t degrees_of_freedom(const RelationGraph& graph);
+
+/// What correspondences cost at their own best, chi^2 / 2: no contradiction between relations.
+[[nodiscard]] double least_cost(const RelationGraph& graph);
+
 }  // namespace helicoid

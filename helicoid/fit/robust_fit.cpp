@@ -1,6 +1,7 @@
 #include "helicoid/fit/robust_fit.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "helicoid/fit/consistent_start.hpp"
 
@@ -23,48 +24,69 @@ void add(const FitTimes& times, FitTimes& sum) {
   sum.total_s += times.total_s;
 }
 
-}  // namespace
+/// The fit with the truncated loss from these poses on, through softened losses while `softness` is more than nothing.
+class Hardening {
+ public:
+  Hardening(const RelationGraph& graph, std::span<const std::uint32_t> fixed, const FitOptions& options)
+      : moving_(graph), fixed_(fixed), options_(options) {}
 
-RobustFit fit_robustly(const RelationGraph& graph, std::span<const std::uint32_t> fixed, const FitOptions& options) {
-  RobustFit robust;
-  if (options.loss.kind != LossKind::truncated) {
-    robust.result = fit(graph, fixed, options);
-    return robust;
+  FitResult run(std::vector<Pose2> start, double softness) {
+    constexpr double kHardening = 1.4;
+    moving_.poses = std::move(start);
+    FitOptions soft = options_;
+    soft.max_iterations = 5;
+    for (soft.loss.softness = softness; soft.loss.softness > 0.01; soft.loss.softness /= kHardening) step(soft);
+    step(options_);
+    last_.iterations = iterations_;
+    last_.times = times_;
+    return std::move(last_);
   }
-  RelationGraph moving = graph;
-  ConsistentStart start = consistent_start(graph, fixed, options);
-  if (start.is_determined) moving.poses = std::move(start.poses);
-  // Soft enough to be convex at the start (their remark 5): mu = w^2 / (2 largest chi^2 - w^2).
+
+ private:
+  void step(const FitOptions& options) {
+    last_ = fit(moving_, fixed_, options);
+    moving_.poses = last_.poses;
+    iterations_ += last_.iterations;
+    add(last_.times, times_);
+  }
+
+  RelationGraph moving_;
+  std::span<const std::uint32_t> fixed_;
+  const FitOptions& options_;
+  FitResult last_;
+  FitTimes times_;
+  int iterations_ = 0;
+};
+
+/// Soft enough for the loss to be convex at these poses (their remark 5): mu = w^2 / (2 largest chi^2 - w^2).
+double convex_softness(const RelationGraph& graph, double square) {
   double most = 0;
   for (const GraphRelation& r : graph.relations) {
     if (r.may_be_wrong) most = std::max(most, excess(r, graph.poses));
   }
-  const double square = options.loss.width * options.loss.width;
-  FitOptions soft = options;
-  soft.max_iterations = 5;
-  FitTimes times;
-  times.total_s = start.cpu_s;
-  int iterations = 0;
-  constexpr double kHardening = 1.4;
-  const auto run = [&](const FitOptions& with) {
-    robust.result = fit(moving, fixed, with);
-    moving.poses = robust.result.poses;
-    iterations += robust.result.iterations;
-    add(robust.result.times, times);
-  };
-  // From a start that agrees with the trusted relations the loss need not let everything in again.
-  constexpr double kSoftEnough = 4;
-  const double convex = std::max(0.0, (2 * most - square) / square);
-  for (soft.loss.softness = start.is_determined ? std::min(convex, kSoftEnough) : convex; soft.loss.softness > 0.01;
-       soft.loss.softness /= kHardening) {
-    run(soft);
+  return std::max(0.0, (2 * most - square) / square);
+}
+
+}  // namespace
+
+RobustFit fit_robustly(const RelationGraph& graph, std::span<const std::uint32_t> fixed, const FitOptions& options) {
+  RobustFit robust;
+  robust.width = options.loss.width;
+  if (options.loss.kind != LossKind::truncated) {
+    robust.result = fit(graph, fixed, options);
+    return robust;
   }
-  FitOptions hard = options;
-  run(hard);
-  robust.result.iterations = iterations;
-  robust.result.times = times;
+  ConsistentStart start = consistent_start(graph, fixed, options);
+  FitOptions truncated = options;
+  if (start.is_determined) truncated.loss.width = robust.width = std::sqrt(start.gate);
+  const double square = robust.width * robust.width;
+  Hardening hardening(graph, fixed, truncated);
+  robust.result = start.is_determined ? hardening.run(std::move(start.poses), 0)
+                                      : hardening.run(graph.poses, convex_softness(graph, square));
+  robust.result.times.total_s += start.cpu_s;
   for (std::uint32_t i = 0; i < graph.relations.size(); ++i) {
-    if (graph.relations[i].may_be_wrong && excess(graph.relations[i], moving.poses) > square) robust.wrong.push_back(i);
+    if (graph.relations[i].may_be_wrong && excess(graph.relations[i], robust.result.poses) > square)
+      robust.wrong.push_back(i);
   }
   return robust;
 }

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "helicoid/fit/consistent_start.hpp"
 #include "helicoid/fit/initial_guess.hpp"
+#include "helicoid/fit/innovation.hpp"
 #include "tests/random_graph.hpp"
 
 namespace helicoid {
@@ -78,6 +82,53 @@ TEST(RobustFit, LetsEveryWrongClosureGoWhereHalfOfThemAreWrong) {
     std::size_t found = 0;
     for (const std::uint32_t i : robust.wrong) found += i >= clean.relations.size() ? 1 : 0;
     EXPECT_EQ(found, right) << "seed " << seed;
+  }
+}
+
+TEST(RobustFit, LetsWrongClosuresGoThoughTheyAgreeWithOneAnother) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RelationGraph graph = random_graph(seed, 150, 60);
+    const std::size_t right = graph.relations.size();
+    // A stretch of ten poses seen twice where it is not: all ten say the same.
+    const Pose2 wrong{2, -1, 0.7};
+    for (std::uint32_t k = 0; k < 10; ++k) {
+      const Pose2 T_a = graph.poses[20].inverse() * graph.poses[20 + k];
+      const Pose2 T_b = graph.poses[100].inverse() * graph.poses[100 + k];
+      graph.relations.push_back(
+          {20 + k, 100 + k, PosePose{T_a.inverse() * wrong * T_b, 400 * Matrix3d::Identity()}, true});
+    }
+    FitOptions options;
+    options.loss.kind = LossKind::truncated;
+    const RobustFit robust = fit_robustly(graph, default_gauge(graph), options);
+    std::vector<std::uint32_t> expected(10);
+    std::iota(expected.begin(), expected.end(), static_cast<std::uint32_t>(right));
+    EXPECT_EQ(robust.wrong, expected) << "seed " << seed;
+  }
+}
+
+TEST(RobustFit, NoChangeOfSidesOfOneRelationLowersTheTruncatedCost) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    const RelationGraph clean = random_graph(seed, 60, 40);
+    const RelationGraph graph = with_wrong_closures(clean, seed, 40);
+    FitOptions options;
+    options.loss.kind = LossKind::truncated;
+    const std::vector<std::uint32_t> gauge = default_gauge(graph);
+    const RobustFit robust = fit_robustly(graph, gauge, options);
+    std::vector<bool> kept(graph.relations.size(), true);
+    for (const std::uint32_t i : robust.wrong) kept[i] = false;
+    const auto cost_of = [&](const std::vector<bool>& taken) {
+      const auto out = static_cast<double>(std::count(taken.begin(), taken.end(), false));
+      const FittedPart part(graph, taken, robust.result.poses, gauge, {});
+      return part.cost() + 0.5 * robust.width * robust.width * out;
+    };
+    const double least = cost_of(kept);
+    EXPECT_NEAR(least, robust.result.final_cost, 1e-6 * least);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (!graph.relations[i].may_be_wrong) continue;
+      kept[i] = !kept[i];
+      EXPECT_GT(cost_of(kept), least * (1 - 1e-6)) << "relation " << i;
+      kept[i] = !kept[i];
+    }
   }
 }
 
