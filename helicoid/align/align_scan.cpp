@@ -48,6 +48,7 @@ struct Pairing {
 
 /// E step (IV-A step 3): pairs every stride-th point with the nearest surface of its side. `bias_share`: the incidence
 /// bias in standard deviations of a residual.
+HELICOID_WIDE_LANES
 void pair_points(const Reference& reference, const ScanPoints& scan, const Pose2& T, float gate, std::size_t stride,
                  float bias_share, Pairing& pairing) {
   const auto c = static_cast<float>(std::cos(T.yaw));
@@ -64,16 +65,18 @@ void pair_points(const Reference& reference, const ScanPoints& scan, const Pose2
     const float y = scan.y[i];
     const float nx = c * scan.nx[i] - s * scan.ny[i];
     const float ny = s * scan.nx[i] + c * scan.ny[i];
-    const SurfaceElement* e = reference.nearest(tx + c * x - s * y, ty + s * x + c * y, nx, ny, gate);
-    if (e == nullptr) continue;
-    const float bias = bias_share * (scan.facing[i] - e->facing);
-    pairing.add(x, y, *e, scan.weight[i] / (1 + bias * bias));
+    const int found = reference.nearest({tx + c * x - s * y, ty + s * x + c * y, nx, ny}, gate);
+    if (found < 0) continue;
+    const SurfaceElement e = reference.element(static_cast<std::size_t>(found));
+    const float bias = bias_share * (scan.facing[i] - e.facing);
+    pairing.add(x, y, e, scan.weight[i] / (1 + bias * bias));
   }
   pairing.pad();
 }
 
 /// Linearises the paired residuals at T (M step, IV-A step 4). Lane by lane and then over the lanes: a fixed tree,
 /// whatever the compiler makes of it.
+HELICOID_WIDE_LANES
 Sums sum_residuals(const Pairing& pairs, const Pose2& T, float robust_scale) {
   constexpr std::size_t kLanes = Pairing::kLanes;
   enum : std::size_t { xx, xy, yy, xt, yt, tt, gx, gy, gt, squares, weights, inliers, kSums };

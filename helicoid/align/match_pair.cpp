@@ -5,29 +5,11 @@
 #include <numbers>
 #include <vector>
 
+#include "helicoid/align/nearest_on_side.hpp"
+
 namespace helicoid {
 
 namespace {
-
-constexpr float kSameSide = 0.7F;
-
-/// The point of `a` nearest to (x, y) with an agreeing normal: a scan is ordered by bearing, so only beams that look
-/// within the gate of the place need be read. -1 if there is none.
-int nearest_by_bearing(const ScanPoints& a, float x, float y, float nx, float ny, int first, int last, float gate) {
-  float best = gate * gate;
-  int found = -1;
-  for (int j = first; j < last; ++j) {
-    if (a.weight[j] <= 0 || a.nx[j] * nx + a.ny[j] * ny < kSameSide) continue;
-    const float dx = a.x[j] - x;
-    const float dy = a.y[j] - y;
-    const float square = dx * dx + dy * dy;
-    if (square < best) {
-      best = square;
-      found = j;
-    }
-  }
-  return found;
-}
 
 /// Which of a's points to read for a place in a's laser frame: the beams that look within `gate` of it.
 class BeamWindow {
@@ -93,9 +75,12 @@ struct PointTransform {
 
 }  // namespace
 
+HELICOID_WIDE_LANES
 PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T_a_b, const MatchPairOptions& options) {
   PairMatch match;
   const ScanPoints& lines = *a.points;
+  const OrientedPoints oriented{lines.x.data(), lines.y.data(), lines.nx.data(), lines.ny.data(),
+                                static_cast<int>(lines.size())};
   const BeamWindow window(*a.laser, lines, options.gate);
   const PointTransform to_a(T_a_b);
   const PointTransform to_laser(a.T_patch_laser.inverse() * T_a_b);
@@ -115,7 +100,10 @@ PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T
     const float y = to_a.y + to_a.s * px + to_a.c * py;
     const float nx = to_a.c * b.nx[i] - to_a.s * b.ny[i];
     const float ny = to_a.s * b.nx[i] + to_a.c * b.ny[i];
-    const int j = nearest_by_bearing(lines, x, y, nx, ny, range.first, range.last, gate);
+    // A scan is ordered by bearing, so only beams that look within the gate of the place need be read.
+    NearestOnSide nearest({x, y, nx, ny}, gate);
+    nearest.look(oriented, range.first, range.last);
+    const int j = nearest.found();
     if (j < 0) continue;
     const Vector2d q_a(lines.x[j], lines.y[j]);
     const Vector2d normal(lines.nx[j], lines.ny[j]);

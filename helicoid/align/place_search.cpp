@@ -27,7 +27,8 @@ class ScorePyramid {
     float high_x = -HUGE_VALF;
     float high_y = -HUGE_VALF;
     low_x_ = low_y_ = HUGE_VALF;
-    for (const SurfaceElement& e : reference.elements()) {
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      const SurfaceElement e = reference.element(i);
       low_x_ = std::min(low_x_, e.x);
       low_y_ = std::min(low_y_, e.y);
       high_x = std::max(high_x, e.x);
@@ -38,7 +39,7 @@ class ScorePyramid {
     columns_ = std::min(kMostSide, static_cast<int>((high_x - low_x_) / kCell) + kReach + 2);
     rows_ = std::min(kMostSide, static_cast<int>((high_y - low_y_) / kCell) + kReach + 2);
     levels_[0].assign(static_cast<std::size_t>(columns_) * rows_, 0);
-    for (const SurfaceElement& e : reference.elements()) stamp(e);
+    for (std::size_t i = 0; i < reference.size(); ++i) stamp(reference.element(i));
     for (int level = 1; level < kLevels; ++level) coarsen(level);
   }
 

@@ -16,7 +16,7 @@ constexpr int kMaxSide = 600;
 
 void Reference::build(std::span<const ReferencePart> parts) {
   gather(parts);
-  elements_.clear();
+  for (std::vector<float>* list : {&x_, &y_, &nx_, &ny_, &weight_, &facing_}) list->clear();
   if (points_.empty()) return;
   frame();
   fuse();
@@ -99,47 +99,21 @@ void Reference::sort_by_cell() {
   start_.assign(head_.size() + 1, 0);
   for (const std::uint32_t cell : cell_of_) ++start_[cell + 1];
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
-  elements_.resize(fused_.size());
+  for (std::vector<float>* list : {&x_, &y_, &nx_, &ny_, &weight_, &facing_}) list->resize(fused_.size());
   // head_ is free again: it now counts what each cell has received.
   std::fill(head_.begin(), head_.end(), 0);
   for (std::size_t i = 0; i < fused_.size(); ++i) {
     const SurfaceElement& e = fused_[i];
     const float scale = 1 / e.weight;
     const float length = std::sqrt(e.nx * e.nx + e.ny * e.ny);
-    elements_[start_[cell_of_[i]] + head_[cell_of_[i]]++] = {e.x * scale,   e.y * scale, e.nx / length,
-                                                             e.ny / length, e.weight,    e.facing * scale};
+    const std::size_t at = start_[cell_of_[i]] + static_cast<std::size_t>(head_[cell_of_[i]]++);
+    x_[at] = e.x * scale;
+    y_[at] = e.y * scale;
+    nx_[at] = e.nx / length;
+    ny_[at] = e.ny / length;
+    weight_[at] = e.weight;
+    facing_[at] = e.facing * scale;
   }
-}
-
-const SurfaceElement* Reference::nearest(float x, float y, float nx, float ny, float gate) const {
-  constexpr float kPerCell = 1 / kCell;
-  const float at_x = (x - origin_x_) * kPerCell;
-  const float at_y = (y - origin_y_) * kPerCell;
-  const float reach = gate * kPerCell;
-  if (!(at_x + reach >= 0 && at_y + reach >= 0 && at_x - reach < static_cast<float>(columns_) &&
-        at_y - reach < static_cast<float>(rows_))) {
-    return nullptr;
-  }
-  const int first_column = std::max(0, static_cast<int>(at_x - reach));
-  const int last_column = std::min(columns_ - 1, static_cast<int>(at_x + reach));
-  const int first_row = std::max(0, static_cast<int>(at_y - reach));
-  const int last_row = std::min(rows_ - 1, static_cast<int>(at_y + reach));
-  float best = gate * gate;
-  const SurfaceElement* found = nullptr;
-  for (int row = first_row; row <= last_row; ++row) {
-    const std::size_t base = static_cast<std::size_t>(row) * columns_;
-    const SurfaceElement* end = elements_.data() + start_[base + last_column + 1];
-    for (const SurfaceElement* e = elements_.data() + start_[base + first_column]; e != end; ++e) {
-      const float dx = e->x - x;
-      const float dy = e->y - y;
-      const float square = dx * dx + dy * dy;
-      if (square < best && e->nx * nx + e->ny * ny > kSameSide) {
-        best = square;
-        found = e;
-      }
-    }
-  }
-  return found;
 }
 
 }  // namespace helicoid

@@ -40,7 +40,7 @@ SheetStack doubled() {
 std::uint32_t pixel_at(const charts::Raster& raster, const GridFrame& frame, const Vector2d& p_plane) {
   const Vector2d cells = frame.to_cells(p_plane) * raster.scale;
   const int y = raster.height - 1 - static_cast<int>(cells.y());
-  return raster.pixels[static_cast<std::size_t>(y * raster.width + static_cast<int>(cells.x()))];
+  return raster.pixels[static_cast<std::size_t>(y) * raster.width + static_cast<std::size_t>(cells.x())];
 }
 
 TEST(Raster, ShowsFloorGroundAndWalls) {

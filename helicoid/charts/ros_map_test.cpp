@@ -78,7 +78,7 @@ TEST_F(RosMap, ReadByItsYamlHasWallsWhereTheyStand) {
   const auto grey = [&](double x, double y) {
     const int column = static_cast<int>(std::floor((x - origin_x) / 0.05));
     const int row = height - 1 - static_cast<int>(std::floor((y - origin_y) / 0.05));
-    return static_cast<unsigned char>(pixels[static_cast<std::size_t>(row * width + column)]);
+    return static_cast<unsigned char>(pixels[static_cast<std::size_t>(row) * width + column]);
   };
   EXPECT_EQ(grey(2, 1), 254);
   EXPECT_EQ(grey(-0.3, 3), 205);

@@ -1,7 +1,8 @@
 #include "helicoid/fit/joint_bound.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "helicoid/fit/front_kernels.hpp"
 
 namespace helicoid {
 
@@ -41,33 +42,70 @@ std::vector<std::size_t> choose_tied(const InformationGraph& graph, std::span<co
 }
 
 /// The lower triangle of the information of (x, y, yaw) of the tied poses in the reference's frame (eq. 9), the
-/// reference held.
-Eigen::MatrixXd joint_information(const InformationGraph& graph, std::span<const BoundedPose> candidates,
-                                  std::span<const std::size_t> tied) {
+/// reference held, as a front: the poses that are known already are its pivots, those in doubt what lies below.
+class JointInformation {
+ public:
+  JointInformation(std::size_t known, std::size_t doubtful)
+      : shape_{3 * static_cast<int>(known), 3 * static_cast<int>(doubtful)},
+        panel_(shape_.panel_size(), 0.0),
+        update_(shape_.update_size(), 0.0) {}
+
+  void add(std::size_t row, std::size_t column, const Matrix3d& block) {
+    const auto top = 3 * static_cast<int>(row);
+    const auto left = 3 * static_cast<int>(column);
+    const bool is_pivot = left < shape_.pivots;
+    const int below = is_pivot ? shape_.first_below() - shape_.pivots : -shape_.pivots;
+    const int leading = is_pivot ? shape_.leading() : padded(shape_.below);
+    double* corner = is_pivot ? panel_.data() + left * leading + top + (top < shape_.pivots ? 0 : below)
+                              : update_.data() + (left - shape_.pivots) * leading + top + below;
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) corner[c * leading + r] += block(r, c);
+    }
+  }
+
+  /// The covariance of all poses in doubt (column-major, padded(3 n) x 3 n); empty if the information is singular.
+  std::vector<double> invert_doubtful() {
+    const FrontKernels& kernels = front_kernels();
+    const FrontShape doubtful{shape_.below, 0};
+    std::vector<double> workspace(std::max(shape_.workspace_size(), doubtful.workspace_size()));
+    if (shape_.pivots > 0 && !kernels.eliminate(shape_, panel_.data(), update_.data(), workspace.data())) return {};
+    double none = 0;
+    if (!kernels.eliminate(doubtful, update_.data(), &none, workspace.data())) return {};
+    std::vector<double> inverse(static_cast<std::size_t>(doubtful.leading()) * doubtful.leading(), 0.0);
+    kernels.invert(doubtful, update_.data(), inverse.data(), workspace.data());
+    return inverse;
+  }
+
+ private:
+  FrontShape shape_;
+  std::vector<double> panel_, update_;
+};
+
+JointInformation joint_information(const InformationGraph& graph, std::span<const BoundedPose> candidates,
+                                   std::span<const std::size_t> tied, std::size_t known) {
   constexpr std::int32_t kAbsent = -2;
   constexpr std::int32_t kReference = -1;
   std::vector<std::int32_t> place(graph.size(), kAbsent);
   place[candidates[0].pose] = kReference;
   for (std::size_t i = 0; i < tied.size(); ++i) place[candidates[tied[i]].pose] = static_cast<std::int32_t>(i);
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3 * std::ssize(tied), 3 * std::ssize(tied));
+  JointInformation H(known, tied.size() - known);
   for (std::size_t i = 0; i < tied.size(); ++i) {
-    const Pose2& T_ref_b = candidates[tied[i]].relative.T_a_b;
-    const auto row = 3 * static_cast<Eigen::Index>(i);
+    const Pose2 T_b_ref = candidates[tied[i]].relative.T_a_b.inverse();
+    Matrix3d by_other = Matrix3d::Identity();
+    by_other.topLeftCorner<2, 2>() = T_b_ref.rotation();
     for (const InformationGraph::Edge& edge : graph.edges(candidates[tied[i]].pose)) {
       const std::int32_t j = place[edge.to];
       // d T_b_other / d T_ref_b; each pair is seen from both of its ends, and each end adds its own block.
       if (j == kAbsent) continue;
-      const Pose2 T_b_other =
-          T_ref_b.inverse() *
-          (j == kReference ? Pose2{} : candidates[tied[static_cast<std::size_t>(j)]].relative.T_a_b);
-      Matrix3d by_other = Matrix3d::Identity();
-      by_other.topLeftCorner<2, 2>() = T_ref_b.rotation().transpose();
+      const Vector2d p_b_other =
+          j == kReference ? T_b_ref.translation()
+                          : T_b_ref * candidates[tied[static_cast<std::size_t>(j)]].relative.T_a_b.translation();
       Matrix3d by_self = -by_other;
-      by_self(0, 2) = T_b_other.y;
-      by_self(1, 2) = -T_b_other.x;
+      by_self(0, 2) = p_b_other.y();
+      by_self(1, 2) = -p_b_other.x();
       const Matrix3d weighted = by_self.transpose() * edge.information;
-      H.block<3, 3>(row, row) += weighted * by_self;
-      if (j >= 0 && j < static_cast<std::int32_t>(i)) H.block<3, 3>(row, 3 * j) += weighted * by_other;
+      H.add(i, i, weighted * by_self);
+      if (j >= 0 && j < static_cast<std::int32_t>(i)) H.add(i, static_cast<std::size_t>(j), weighted * by_other);
     }
   }
   return H;
@@ -87,19 +125,16 @@ std::vector<BoundedPose> joint_bound(const InformationGraph& graph, std::span<co
   // Those in doubt last: only the end of the factor is then needed for them.
   const auto doubtful = std::stable_partition(tied.begin(), tied.end(), is_known);
   if (doubtful != tied.end()) {
-    Eigen::MatrixXd H = joint_information(graph, candidates, tied);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(H);
-    const Eigen::Index size = 3 * (tied.end() - doubtful);
-    if (factor.info() == Eigen::Success) {
-      const Eigen::MatrixXd inverse =
-          H.bottomRightCorner(size, size).triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(size, size));
-      const Matrix3d floor = noise_floor(options.floor_position, options.floor_heading);
-      for (auto i = doubtful; i != tied.end(); ++i) {
-        UncertainPose2& relative = candidates[*i].relative;
-        const auto columns = inverse.middleCols<3>(3 * (i - doubtful));
-        relative.covariance = columns.transpose() * columns;
-        relative.covariance = with_noise_floor(relative, floor, floor);
-      }
+    const auto known = static_cast<std::size_t>(doubtful - tied.begin());
+    const std::vector<double> covariance = joint_information(graph, candidates, tied, known).invert_doubtful();
+    const Eigen::Index leading = padded(3 * static_cast<int>(tied.size() - known));
+    const Matrix3d floor = noise_floor(options.floor_position, options.floor_heading);
+    for (std::size_t i = known; i < tied.size() && !covariance.empty(); ++i) {
+      UncertainPose2& relative = candidates[tied[i]].relative;
+      const auto corner = 3 * static_cast<Eigen::Index>(i - known);
+      relative.covariance = Eigen::Map<const Matrix3d, 0, Eigen::OuterStride<>>(
+          covariance.data() + corner * (leading + 1), Eigen::OuterStride<>(leading));
+      relative.covariance = with_noise_floor(relative, floor, floor);
     }
   }
   std::erase_if(candidates, [&](const BoundedPose& p) { return !is_confident(p, options); });

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <libdeflate.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -17,6 +18,20 @@ namespace {
 
 /// An archive that claims to hold more is inflated piece by piece instead of all at once.
 constexpr std::size_t kLargestGuess = std::size_t{1} << 30U;
+
+/// Room for that many bytes that are all about to be written: the pages are asked for at once, which costs a third of
+/// what a fault a page does. Where the system knows no such request the faults come one by one.
+void make_room(std::string& bytes, std::size_t size) {
+  bytes.clear();
+  bytes.reserve(size);
+#ifdef MADV_POPULATE_WRITE
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = (reinterpret_cast<std::uintptr_t>(bytes.data()) + page - 1) / page * page;
+  const auto end = (reinterpret_cast<std::uintptr_t>(bytes.data()) + size) / page * page;
+  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
+#endif
+  bytes.resize(size);
+}
 
 struct Descriptor {
   int value = -1;
@@ -35,7 +50,7 @@ Result<std::string> read_bytes(const std::string& path) {
   std::string bytes;
   const bool sized = S_ISREG(status.st_mode);
   std::size_t used = 0;
-  bytes.resize(sized ? static_cast<std::size_t>(status.st_size) + 1 : std::size_t{1} << 20U);
+  make_room(bytes, sized ? static_cast<std::size_t>(status.st_size) + 1 : std::size_t{1} << 20U);
   while (true) {
     if (used == bytes.size()) bytes.resize(2 * bytes.size());
     const ssize_t got = read(file.value, bytes.data() + used, bytes.size() - used);
@@ -61,7 +76,7 @@ bool inflate_whole(const std::string& bytes, std::string& text) {
   if (stated > kLargestGuess || stated / 1100 > bytes.size()) return false;
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
       libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-  text.resize(stated);
+  make_room(text, stated);
   std::size_t consumed = 0;
   std::size_t produced = 0;
   const auto status = libdeflate_gzip_decompress_ex(decompressor.get(), bytes.data(), bytes.size(), text.data(),

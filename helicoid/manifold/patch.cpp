@@ -8,10 +8,16 @@
 namespace helicoid {
 
 Patch make_patch(PatchId id, RobotId robot, std::size_t scan_index, double stamp, Scan scan, const LaserModel& laser) {
-  Patch patch{id, robot, scan_index, stamp, std::move(scan), laser, {}, {}, {}, 0, 0};
-  patch.free_space = free_space_polygon(patch.scan, laser, make_beam_table(laser));
-  patch.free_ranges = free_ranges(patch.scan, laser);
-  patch.points = ScanPointExtractor(laser).extract(patch.scan);
+  ScanPointExtractor extractor(laser);
+  return make_patch(id, robot, scan_index, stamp, std::move(scan), extractor);
+}
+
+Patch make_patch(PatchId id, RobotId robot, std::size_t scan_index, double stamp, Scan scan,
+                 ScanPointExtractor& extractor) {
+  Patch patch{id, robot, scan_index, stamp, std::move(scan), extractor.laser(), {}, {}, {}, 0, 0};
+  patch.free_space = free_space_polygon(patch.scan, patch.laser, extractor.beams());
+  patch.free_ranges = free_ranges(patch.scan, patch.laser);
+  patch.points = extractor.extract(patch.scan);
   for (const auto& vertex : patch.free_space)
     patch.free_reach = std::max(patch.free_reach, static_cast<double>(vertex.norm()));
   patch.reach = patch.free_reach;

@@ -30,6 +30,9 @@ struct Patch {
 /// Derives all that follows from a scan. The same scan and laser give the same patch, to the bit.
 [[nodiscard]] Patch make_patch(PatchId id, RobotId robot, std::size_t scan_index, double stamp, Scan scan,
                                const LaserModel& laser);
+/// The same with the tables of the laser at hand.
+[[nodiscard]] Patch make_patch(PatchId id, RobotId robot, std::size_t scan_index, double stamp, Scan scan,
+                               ScanPointExtractor& extractor);
 
 /// True if p_patch lies in the free-space polygon; O(1) by its star shape.
 [[nodiscard]] bool contains(const Patch& patch, const Vector2d& p_patch);

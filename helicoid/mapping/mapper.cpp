@@ -42,7 +42,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   if (points.size() == 0) ++counts.empty_scans;
   // Where no patch knows the robot's place, the scan makes one that does: r lies inside s (III-A).
   const std::optional<std::size_t> ground = choose_anchor(map, robot.local, robot.pose.T_patch_robot);
-  if ((!ground && alignment.usable()) || is_worth_keeping(robot, alignment, scan, points.size(), laser)) {
+  if ((!ground && alignment.usable()) || is_worth_keeping(robot, alignment, scan, points.size())) {
     result.new_patch = keep(robot, event, scan);
   } else if (ground) {
     stand_on(robot, robot.local[*ground]);
@@ -53,7 +53,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
 }
 
 bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan,
-                                     std::size_t points, const LaserModel& laser) const {
+                                     std::size_t points) const {
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
   // A scan that saw next to nothing makes no patch: nothing could be matched to it.
   const bool sees = points >= static_cast<std::size_t>(AlignOptions{}.min_points);
@@ -62,7 +62,7 @@ bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignme
   if (alignment.inlier_share < options.new_surface_share) return true;
   if (!has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) return false;
   robot.T_anchor_coverage_view = T_anchor_robot;
-  return uncovered_share(map, robot.local, T_anchor_robot, scan, laser) > options.new_ground_share;
+  return uncovered_share(map, robot.local, T_anchor_robot, scan, robot.extractors[scan.laser]) > options.new_ground_share;
 }
 
 void Mapper::State::take(const Event& event, const Sighting& sighting) {
@@ -96,7 +96,7 @@ Step Mapper::State::start_island(RobotState& robot, const Event& event, const Sc
   const IslandId island = editor.add_island();
   const PatchId id = make_id<PatchId>(map.patch_count());
   editor.add_patch(make_patch(id, event.robot, map.robot(event.robot).trajectory.size(), event.stamp, scan,
-                              laser_of(event.robot, scan)),
+                              robot.extractors[scan.laser]),
                    Pose2{}, island);
   graph.add_pose();
   robot.pose = {id, Pose2{}};
@@ -111,7 +111,8 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   const PatchId anchor = robot.pose.patch;
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
   const PatchId id = make_id<PatchId>(map.patch_count());
-  Patch patch = make_patch(id, event.robot, map.robot(event.robot).trajectory.size(), event.stamp, scan, laser);
+  Patch patch = make_patch(id, event.robot, map.robot(event.robot).trajectory.size(), event.stamp, scan,
+                           robot.extractors[scan.laser]);
   const std::vector<LocalPatch> views =
       select_views(map, robot.local, patch.points, T_anchor_robot, robot.last_kept, options.relation_views);
   RelateOptions relate_options;

@@ -32,8 +32,7 @@ struct Mapper::State {
   Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const LaserModel& laser);
   Alignment match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior, const Alignment& failed,
                              const LaserModel& laser);
-  bool is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan, std::size_t points,
-                        const LaserModel& laser) const;
+  bool is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan, std::size_t points) const;
   void take(const Event& event, const Sighting& sighting);
   void join_what_is_determined(bool last);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan);

@@ -26,12 +26,13 @@ bool is_far_from_all(const LocalMap& local, const Pose2& T_anchor_robot, const M
 }
 
 double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot, const Scan& scan,
-                       const LaserModel& laser) {
+                       const ScanPointExtractor& extractor) {
   const std::vector<LocalPatch> views = nearest_views(local, T_anchor_robot, kMostViews);
   std::vector<Pose2> T_patch_laser;
   T_patch_laser.reserve(views.size());
   const Pose2 T_anchor_laser = T_anchor_robot * scan.T_robot_laser;
   for (const LocalPatch& view : views) T_patch_laser.push_back(view.T_anchor_patch.inverse() * T_anchor_laser);
+  const LaserModel& laser = extractor.laser();
   const std::vector<float> radii = free_ranges(scan, laser);
   const int stride = std::max(1, laser.beams / kSampleBeams);
   double all = 0;
@@ -39,8 +40,8 @@ double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anc
   for (int beam = stride / 2; beam < laser.beams; beam += stride) {
     const double radius = radii[beam];
     if (radius <= 0) continue;
-    const double c = std::cos(laser.bearing(beam));
-    const double s = std::sin(laser.bearing(beam));
+    const double c = extractor.beams().cosine[beam];
+    const double s = extractor.beams().sine[beam];
     for (const double share : kShares) {
       const double r = share * radius;
       const double area = r * radius;

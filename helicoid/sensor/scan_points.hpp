@@ -42,6 +42,8 @@ class ScanPointExtractor {
   explicit ScanPointExtractor(const LaserModel& laser);
   /// The points of a scan; valid until the next call.
   const ScanPoints& extract(const Scan& scan);
+  [[nodiscard]] const LaserModel& laser() const { return laser_; }
+  [[nodiscard]] const BeamTable& beams() const { return table_; }
 
  private:
   void find_normals(float laser_x, float laser_y);

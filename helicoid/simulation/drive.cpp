@@ -71,7 +71,7 @@ void RouteDriver::push_target(double aside) {
 }
 
 Vector2d RouteDriver::target(double aside) const {
-  const Vector2d p = point_at(at_);
+  Vector2d p = point_at(at_);
   if (aside == 0) return p;
   const Vector2d along = (p - point_at(at_ - kStep)).normalized();
   return p + aside * Vector2d(along.y(), -along.x());

@@ -175,7 +175,9 @@ Result<World> parse_image_world(const std::string& yaml, const std::string& imag
   if (world.walls.empty()) return fail("{}: the image holds no free cell beside a solid one", name);
   if (const Result<void> checked = check_size(world); !checked) return tl::unexpected(checked.error());
   const int open = most_open_cell(free, image->width, image->height);
-  const Vector2d start = lower_left + resolution * Vector2d(open % image->width + 0.5, open / image->width + 0.5);
+  const int column = open % image->width;
+  const int row = open / image->width;
+  const Vector2d start = lower_left + resolution * Vector2d(column + 0.5, row + 0.5);
   world.starts.push_back({start.x(), start.y(), 0});
   return world;
 }

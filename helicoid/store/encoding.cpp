@@ -17,7 +17,7 @@ std::optional<std::vector<std::uint16_t>> as_centimetres(const std::vector<float
   whole.reserve(ranges.size());
   for (const float range : ranges) {
     if (!(range >= 0 && range < 655)) return {};
-    const auto centimetres = static_cast<std::uint16_t>(static_cast<double>(range) * 100 + 0.5);
+    const auto centimetres = static_cast<std::uint16_t>(std::lround(static_cast<double>(range) * 100));
     // Compared by bits: -0 is not 0.
     if (std::bit_cast<std::uint32_t>(from_centimetres(centimetres)) != std::bit_cast<std::uint32_t>(range)) return {};
     whole.push_back(centimetres);
