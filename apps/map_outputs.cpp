@@ -57,7 +57,7 @@ Result<void> write_trajectories(const Map& map, const MapReport& report, const s
     std::vector<StampedPose> online;
     for (const TrackedScan& scan : robot.trajectory) {
       final_poses.push_back({scan.stamp, T_island_plane * map.project(scan.pose)});
-      online.push_back({scan.stamp, T_island_plane * scan.T_island_robot_online});
+      online.push_back({scan.stamp, T_island_plane * scan.T_island_robot_online()});
     }
     const std::string base = folder + "/trajectories/";
     if (auto done = write_whole_file(base + robot.name + ".tum", to_tum(online_only ? online : final_poses)); !done)

@@ -35,7 +35,7 @@ struct MapRun {
   std::vector<std::string> lasers;  ///< by robot, in words
   std::vector<std::string> warnings;
   std::vector<Skipped> skipped;
-  std::vector<double> scan_seconds;  ///< thread CPU time of each scan, in order
+  std::vector<double> scan_seconds;  ///< thread CPU time of each scan, its reading included, in order
   std::size_t scans = 0;
   bool interrupted = false;
   PhaseTimes phase;

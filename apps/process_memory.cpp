@@ -32,7 +32,7 @@ std::size_t map_bytes(const Map& map) {
 
 std::size_t trajectory_bytes(const Map& map) {
   std::size_t total = 0;
-  for (const RobotRecord& robot : map.robots()) total += bytes(robot.trajectory);
+  for (const RobotRecord& robot : map.robots()) total += robot.trajectory.bytes();
   return total;
 }
 

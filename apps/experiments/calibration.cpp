@@ -132,7 +132,7 @@ Result<Outcome> run_recorded(const std::string& name, const std::string& folder)
   if (!truth) return tl::unexpected(truth.error());
   const Map& map = run->mapper.map();
   const StatedConfidence stated(map);
-  const std::vector<TrackedScan>& scans = map.robots().front().trajectory;
+  const Trajectory& scans = map.robots().front().trajectory;
   std::unordered_map<long long, std::size_t> by_stamp;  // looked up only, never walked through
   const auto key = [](double stamp) { return std::llround(1e5 * stamp); };
   for (std::size_t i = 0; i < scans.size(); ++i) by_stamp.emplace(key(scans[i].stamp), i);

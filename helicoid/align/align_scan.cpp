@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "helicoid/base/wide_lanes.hpp"
+
 namespace helicoid {
 
 namespace {

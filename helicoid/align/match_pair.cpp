@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "helicoid/align/nearest_on_side.hpp"
+#include "helicoid/base/wide_lanes.hpp"
+#include "helicoid/geometry/approximate_angle.hpp"
 
 namespace helicoid {
 
@@ -34,7 +35,7 @@ class BeamWindow {
     const float range = std::sqrt(x * x + y * y);
     if (range <= 2 * gate_) return {first_.front(), first_.back()};
     const float offset = approximate_atan2(y, x) - first_bearing_ - half_view_;
-    const float beam = (wrap(offset) + half_view_) * per_step_;
+    const float beam = (approximate_wrap(offset) + half_view_) * per_step_;
     const float window = gate_ / range * per_step_ + 1.5F;
     const int low = std::max(0, static_cast<int>(beam - window));
     const int high = std::min(beams_, static_cast<int>(beam + window) + 1);
@@ -43,21 +44,6 @@ class BeamWindow {
   }
 
  private:
-  static float wrap(float angle) {
-    constexpr float kTurn = 2 * std::numbers::pi_v<float>;
-    return angle - kTurn * std::floor(angle / kTurn + 0.5F);
-  }
-  /// To 2e-3 rad, which the window's margin covers: it only chooses which beams are read.
-  static float approximate_atan2(float y, float x) {
-    const float ax = std::abs(x);
-    const float ay = std::abs(y);
-    const float t = std::min(ax, ay) / std::max(ax, ay);
-    float angle = t * (0.97239F - 0.19195F * t * t);
-    if (ay > ax) angle = 0.5F * std::numbers::pi_v<float> - angle;
-    if (x < 0) angle = std::numbers::pi_v<float> - angle;
-    return y < 0 ? -angle : angle;
-  }
-
   float first_bearing_, half_view_, per_step_, gate_;
   int beams_;
   std::vector<std::uint16_t> first_;

@@ -1,17 +1,11 @@
 // The innermost loop of scan matching: the nearest of a run of points whose normal agrees, eight at a time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace helicoid {
-
-/// Compiled once for each class of processors and chosen at run time; the same operations, so the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define HELICOID_WIDE_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#define HELICOID_WIDE_LANES
-#endif
 
 /// Normals whose cosine is less belong to another side, or to another wall of a corner.
 inline constexpr float kSameSide = 0.7F;
@@ -54,13 +48,20 @@ class NearestOnSide {
 
   /// -1: none.
   [[nodiscard, gnu::always_inline]] int found() const {
-    int best = 0;
-    for (int lane = 1; lane < kLanes; ++lane) {
-      const bool is_nearer = square_[lane] < square_[best];
-      const bool is_before = square_[lane] == square_[best] && index_[lane] < index_[best];
-      if (is_nearer || is_before) best = lane;
-    }
-    return index_[best];
+    Floats least = square_;
+    Floats other = __builtin_shufflevector(least, least, 4, 5, 6, 7, 0, 1, 2, 3);
+    least = other < least ? other : least;
+    other = __builtin_shufflevector(least, least, 2, 3, 0, 1, 6, 7, 4, 5);
+    least = other < least ? other : least;
+    other = __builtin_shufflevector(least, least, 1, 0, 3, 2, 5, 4, 7, 6);
+    least = other < least ? other : least;
+    // A lane that found nothing still holds the gate: it is least only if none did.
+    Ints first = square_ == least ? index_ : Ints{} + std::numeric_limits<std::int32_t>::max();
+    Ints next = __builtin_shufflevector(first, first, 4, 5, 6, 7, 0, 1, 2, 3);
+    first = next < first ? next : first;
+    next = __builtin_shufflevector(first, first, 2, 3, 0, 1, 6, 7, 4, 5);
+    first = next < first ? next : first;
+    return std::min(first[0], first[1]);
   }
 
  private:

@@ -70,12 +70,12 @@ class Reference {
   void fuse();
   void sort_by_cell();
 
-  std::vector<SurfaceElement> points_;  ///< transformed, not yet fused
-  std::vector<SurfaceElement> fused_;   ///< sums, in order of making
-  std::vector<std::uint32_t> cell_of_;  ///< by fused element
-  std::vector<std::int32_t> next_;      ///< linked list within a cell while fusing
-  std::vector<std::int32_t> head_;      ///< by cell
-  std::vector<std::uint32_t> start_;    ///< by cell: the first of its elements; one more than cells
+  std::vector<SurfaceElement> points_;                    ///< transformed, not yet fused
+  std::vector<SurfaceElement> fused_;                     ///< sums, in order of making
+  std::vector<std::uint32_t> cell_of_;                    ///< by fused element
+  std::vector<std::int32_t> next_;                        ///< linked list within a cell while fusing
+  std::vector<std::int32_t> head_;                        ///< by cell
+  std::vector<std::uint32_t> start_;                      ///< by cell: the first of its elements; one more than cells
   std::vector<float> x_, y_, nx_, ny_, weight_, facing_;  ///< the elements, ordered by cell
   float origin_x_ = 0, origin_y_ = 0;
   int columns_ = 0, rows_ = 0;

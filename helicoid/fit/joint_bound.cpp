@@ -1,6 +1,7 @@
 #include "helicoid/fit/joint_bound.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "helicoid/fit/front_kernels.hpp"
 
@@ -67,12 +68,13 @@ class JointInformation {
   std::vector<double> invert_doubtful() {
     const FrontKernels& kernels = front_kernels();
     const FrontShape doubtful{shape_.below, 0};
-    std::vector<double> workspace(std::max(shape_.workspace_size(), doubtful.workspace_size()));
-    if (shape_.pivots > 0 && !kernels.eliminate(shape_, panel_.data(), update_.data(), workspace.data())) return {};
+    const auto workspace =
+        std::make_unique_for_overwrite<double[]>(std::max(shape_.workspace_size(), doubtful.workspace_size()));
+    if (shape_.pivots > 0 && !kernels.eliminate(shape_, panel_.data(), update_.data(), workspace.get())) return {};
     double none = 0;
-    if (!kernels.eliminate(doubtful, update_.data(), &none, workspace.data())) return {};
+    if (!kernels.eliminate(doubtful, update_.data(), &none, workspace.get())) return {};
     std::vector<double> inverse(static_cast<std::size_t>(doubtful.leading()) * doubtful.leading(), 0.0);
-    kernels.invert(doubtful, update_.data(), inverse.data(), workspace.data());
+    kernels.invert(doubtful, update_.data(), inverse.data(), workspace.get());
     return inverse;
   }
 

@@ -25,10 +25,10 @@ void make_room(std::string& bytes, std::size_t size) {
   bytes.clear();
   bytes.reserve(size);
 #ifdef MADV_POPULATE_WRITE
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto begin = (reinterpret_cast<std::uintptr_t>(bytes.data()) + page - 1) / page * page;
-  const auto end = (reinterpret_cast<std::uintptr_t>(bytes.data()) + size) / page * page;
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(bytes.data()) % page) % page;
+  // A request that fails costs nothing but time.
+  if (size > before + page) madvise(bytes.data() + before, (size - before) / page * page, MADV_POPULATE_WRITE);
 #endif
   bytes.resize(size);
 }

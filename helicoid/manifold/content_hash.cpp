@@ -64,7 +64,7 @@ void add_robot(Hasher& hasher, const RobotRecord& robot) {
     hasher.add(scan.stamp);
     hasher.add(std::uint64_t{scan.pose.patch.value});
     hasher.add(scan.pose.T_patch_robot);
-    hasher.add(scan.T_island_robot_online);
+    hasher.add(scan.T_island_patch_online);
     hasher.add_matrix(scan.covariance);
   }
 }

@@ -36,11 +36,13 @@ TEST(ContentHash, TellsMinusZeroFromZero) {
 }
 
 TEST(ContentHash, ChangesWithATrackedScan) {
-  Map map = sample();
-  TrackedScan scan = map.robot(RobotId{1}).trajectory[0];
-  scan.covariance(2, 2) += 1e-9;
-  MapEditor(map).set_scan(RobotId{1}, 0, scan);
-  EXPECT_NE(content_hash(map), content_hash(sample()));
+  Map a = sample();
+  Map b = sample();
+  TrackedScan scan = a.robot(RobotId{1}).trajectory[0];
+  MapEditor(a).append_scan(RobotId{1}, scan);
+  scan.covariance(2, 2) = 2 * scan.covariance(2, 2) + 1e-9;
+  MapEditor(b).append_scan(RobotId{1}, scan);
+  EXPECT_NE(content_hash(a), content_hash(b));
 }
 
 TEST(ContentHash, ChangesWithAnEmptyIsland) {

@@ -69,8 +69,4 @@ void MapEditor::append_scan(RobotId robot, const TrackedScan& scan) {
   map_.robots_[robot.index()].trajectory.push_back(scan);
 }
 
-void MapEditor::set_scan(RobotId robot, std::size_t index, const TrackedScan& scan) {
-  map_.robots_[robot.index()].trajectory[index] = scan;
-}
-
 }  // namespace helicoid

@@ -9,28 +9,14 @@
 
 #include "helicoid/manifold/patch.hpp"
 #include "helicoid/manifold/relation.hpp"
+#include "helicoid/manifold/trajectory.hpp"
 
 namespace helicoid {
-
-/// A pose on the manifold: the paper's rho = (pi, r).
-struct ManifoldPose {
-  PatchId patch;
-  Pose2 T_patch_robot;
-  friend bool operator==(const ManifoldPose&, const ManifoldPose&) = default;
-};
-
-/// Where one scan was taken. The same place whatever a later fit does to the patch's pose.
-struct TrackedScan {
-  double stamp = 0;                        ///< seconds
-  ManifoldPose pose;                       ///< as matched
-  Pose2 T_island_robot_online;             ///< the projected pose as it was first reported
-  Matrix3d covariance = Matrix3d::Zero();  ///< of T_patch_robot, in the patch's frame, noise floor not included
-};
 
 struct RobotRecord {
   std::string name;
   std::vector<LaserModel> lasers;
-  std::vector<TrackedScan> trajectory;  ///< one entry a scan, in the log's order
+  Trajectory trajectory;
 };
 
 struct Island {

@@ -20,7 +20,6 @@ class MapEditor {
   void set_pose(PatchId id, const Pose2& T_plane_patch) { map_.poses_[id.index()] = T_plane_patch; }
   void set_poses(std::vector<Pose2> poses) { map_.poses_ = std::move(poses); }
   void append_scan(RobotId robot, const TrackedScan& scan);
-  void set_scan(RobotId robot, std::size_t index, const TrackedScan& scan);
 
  private:
   Map& map_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
+#include "helicoid/geometry/approximate_angle.hpp"
 #include "helicoid/manifold/confidence.hpp"
 
 namespace helicoid {
@@ -21,48 +23,56 @@ double view_distance(const Pose2& T_anchor_a, const Pose2& T_anchor_b) {
 /// Surfaces of a scan that stand for all of them.
 constexpr std::size_t kSamples = 24;
 /// A surface was seen if the patch measured a range this near to its distance, in metres and of the distance.
-constexpr double kRangeTolerance = 0.25;
-constexpr double kRangeShare = 0.03;
+constexpr float kRangeTolerance = 0.25F;
+constexpr float kRangeShare = 0.03F;
 /// Seen flatter than this a surface says little.
-constexpr double kLeastFacing = 0.1;
+constexpr float kLeastFacing = 0.1F;
 /// An older patch is preferred if it saw this share of what the best one saw.
-constexpr double kMuch = 0.5;
+constexpr float kMuch = 0.5F;
 
-/// A surface of the scan, in the anchor's frame.
-struct Surface {
-  Vector2d p_anchor;
-  Vector2d normal;
+/// Surfaces of the scan in the anchor's frame; arrays of one length.
+struct Surfaces {
+  std::array<float, kSamples> x, y, nx, ny;
+  std::size_t size = 0;
 };
 
-std::vector<Surface> sample_surfaces(const ScanPoints& points, const Pose2& T_anchor_robot) {
-  std::vector<Surface> surfaces;
+Surfaces sample_surfaces(const ScanPoints& points, const Pose2& T_anchor_robot) {
+  Surfaces surfaces;
   const Matrix2d rotation = T_anchor_robot.rotation();
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kSamples);
-  for (std::size_t i = stride / 2; i < points.size() && surfaces.size() < kSamples; i += stride) {
+  for (std::size_t i = stride / 2; i < points.size() && surfaces.size < kSamples; i += stride) {
     if (points.weight[i] <= 0) continue;
-    surfaces.push_back(
-        {T_anchor_robot * Vector2d(points.x[i], points.y[i]), rotation * Vector2d(points.nx[i], points.ny[i])});
+    const Vector2d p_anchor = rotation * Vector2d(points.x[i], points.y[i]) + T_anchor_robot.translation();
+    const Vector2d normal = rotation * Vector2d(points.nx[i], points.ny[i]);
+    surfaces.x[surfaces.size] = static_cast<float>(p_anchor.x());
+    surfaces.y[surfaces.size] = static_cast<float>(p_anchor.y());
+    surfaces.nx[surfaces.size] = static_cast<float>(normal.x());
+    surfaces.ny[surfaces.size++] = static_cast<float>(normal.y());
   }
   return surfaces;
 }
 
 /// Which of the surfaces a patch saw from their side: bit by bit.
-std::uint32_t seen_by(const Patch& patch, const Pose2& T_anchor_patch, std::span<const Surface> surfaces) {
+std::uint32_t seen_by(const Patch& patch, const Pose2& T_anchor_patch, const Surfaces& surfaces) {
   const Pose2 T_anchor_laser = T_anchor_patch * patch.scan.T_robot_laser;
-  const Pose2 T_laser_anchor = T_anchor_laser.inverse();
-  const Matrix2d rotation = T_laser_anchor.rotation();
+  const Eigen::Vector2f at = T_anchor_laser.translation().cast<float>();
+  const Eigen::Matrix2f turn = T_anchor_laser.rotation().transpose().cast<float>();
   const LaserModel& laser = patch.laser;
-  const double middle = laser.first_bearing + 0.5 * laser.field_of_view();
+  const auto half_view = static_cast<float>(0.5 * laser.field_of_view());
+  const float middle = static_cast<float>(laser.first_bearing) + half_view;
+  const auto per_step = static_cast<float>(1 / laser.bearing_step);
   std::uint32_t seen = 0;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const Vector2d p_laser = rotation * surfaces[i].p_anchor + T_laser_anchor.translation();
-    const double distance = p_laser.norm();
-    const double facing = surfaces[i].normal.dot(T_anchor_laser.translation() - surfaces[i].p_anchor);
+  for (std::size_t i = 0; i < surfaces.size; ++i) {
+    const float dx = surfaces.x[i] - at.x();
+    const float dy = surfaces.y[i] - at.y();
+    const float distance = std::sqrt(dx * dx + dy * dy);
+    const float facing = -(surfaces.nx[i] * dx + surfaces.ny[i] * dy);
     if (facing < kLeastFacing * distance) continue;
-    const double offset = wrap_angle(std::atan2(p_laser.y(), p_laser.x()) - middle) + 0.5 * laser.field_of_view();
-    const auto beam = std::lround(offset / laser.bearing_step);
-    if (beam < 0 || beam >= std::ssize(patch.scan.ranges)) continue;
-    const double range = static_cast<double>(patch.scan.ranges[static_cast<std::size_t>(beam)]);
+    const float bearing =
+        approximate_atan2(turn(1, 0) * dx + turn(1, 1) * dy, turn(0, 0) * dx + turn(0, 1) * dy) - middle;
+    const auto beam = static_cast<int>(std::floor((approximate_wrap(bearing) + half_view) * per_step + 0.5F));
+    if (beam < 0 || beam >= static_cast<int>(patch.scan.ranges.size())) continue;
+    const float range = patch.scan.ranges[static_cast<std::size_t>(beam)];
     if (std::abs(range - distance) < kRangeTolerance + kRangeShare * distance) seen |= 1U << i;
   }
   return seen;
@@ -71,25 +81,35 @@ std::uint32_t seen_by(const Patch& patch, const Pose2& T_anchor_patch, std::span
 /// Chooses views one after another: what is seen by few of those chosen so far counts most.
 class ViewChoice {
  public:
-  explicit ViewChoice(std::vector<std::uint32_t> seen) : seen_(std::move(seen)), taken_(seen_.size(), false) {}
+  explicit ViewChoice(std::vector<std::uint32_t> seen)
+      : seen_(std::move(seen)), taken_(seen_.size(), false), gain_(seen_.size(), 0) {
+    worth_.fill(1);
+  }
 
   void take(std::size_t i) {
     taken_[i] = true;
-    for (std::size_t k = 0; k < kSamples; ++k) count_[k] += seen_[i] >> k & 1U;
-  }
-  [[nodiscard]] bool is_taken(std::size_t i) const { return taken_[i]; }
-  [[nodiscard]] double gain(std::size_t i) const {
-    double gain = 0;
-    for (std::size_t k = 0; k < kSamples; ++k) {
-      if ((seen_[i] >> k & 1U) != 0) gain += 1.0 / (1 + count_[k]);
+    for (std::uint32_t left = seen_[i]; left != 0; left &= left - 1) {
+      float& worth = worth_[static_cast<std::size_t>(std::countr_zero(left))];
+      worth = 1 / (1 / worth + 1);
     }
-    return gain;
+  }
+  /// What each patch would add, -1 for those that are taken.
+  [[nodiscard]] const std::vector<float>& weigh() {
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      gain_[i] = taken_[i] ? -1.0F : 0.0F;
+      if (taken_[i]) continue;
+      for (std::uint32_t left = seen_[i]; left != 0; left &= left - 1) {
+        gain_[i] += worth_[static_cast<std::size_t>(std::countr_zero(left))];
+      }
+    }
+    return gain_;
   }
 
  private:
   std::vector<std::uint32_t> seen_;
   std::vector<bool> taken_;
-  std::array<std::uint32_t, kSamples> count_{};
+  std::vector<float> gain_;
+  std::array<float, kSamples> worth_;  ///< of a surface: 1 / (1 + how many of those taken saw it)
 };
 
 }  // namespace
@@ -140,7 +160,7 @@ std::vector<LocalPatch> nearest_views(const LocalMap& local, const Pose2& T_anch
 
 std::vector<LocalPatch> select_views(const Map& map, const LocalMap& local, const ScanPoints& points,
                                      const Pose2& T_anchor_robot, PatchId last_kept, std::size_t most) {
-  const std::vector<Surface> surfaces = sample_surfaces(points, T_anchor_robot);
+  const Surfaces surfaces = sample_surfaces(points, T_anchor_robot);
   std::vector<std::uint32_t> seen;
   for (const LocalPatch& p : local) seen.push_back(seen_by(map.patch(p.patch), p.T_anchor_patch, surfaces));
   ViewChoice choice(std::move(seen));
@@ -153,21 +173,19 @@ std::vector<LocalPatch> select_views(const Map& map, const LocalMap& local, cons
     if (local[i].patch == last_kept) take(i);
   }
   while (views.size() < std::min(most, local.size())) {
-    double best_gain = 0;
-    for (std::size_t i = 0; i < local.size(); ++i) {
-      if (!choice.is_taken(i)) best_gain = std::max(best_gain, choice.gain(i));
-    }
+    const std::vector<float>& gain = choice.weigh();
+    const float best_gain = *std::max_element(gain.begin(), gain.end());
     if (best_gain <= 0) break;
     // The nearest of the best and the oldest of the good, in turn.
     const bool oldest = views.size() % 2 == 1;
-    const double enough = (oldest ? kMuch : 0.95) * best_gain;
+    const float enough = (oldest ? kMuch : 0.95F) * best_gain;
+    const auto order = [&](std::size_t k) {
+      return oldest ? static_cast<double>(local[k].patch.value)
+                    : view_distance(local[k].T_anchor_patch, T_anchor_robot);
+    };
     std::size_t best = local.size();
     for (std::size_t i = 0; i < local.size(); ++i) {
-      if (choice.is_taken(i) || choice.gain(i) < enough) continue;
-      const auto order = [&](std::size_t k) {
-        return oldest ? static_cast<double>(local[k].patch.value)
-                      : view_distance(local[k].T_anchor_patch, T_anchor_robot);
-      };
+      if (gain[i] < enough) continue;
       if (best == local.size() || order(i) < order(best)) best = i;
     }
     take(best);

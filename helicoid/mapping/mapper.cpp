@@ -48,7 +48,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
     stand_on(robot, robot.local[*ground]);
   }
   result.pose = robot.pose;
-  editor.append_scan(event.robot, {event.stamp, robot.pose, map.project(robot.pose), robot.covariance});
+  editor.append_scan(event.robot, {event.stamp, robot.pose, map.T_plane_patch(robot.pose.patch), robot.covariance});
   return result;
 }
 
@@ -62,7 +62,8 @@ bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignme
   if (alignment.inlier_share < options.new_surface_share) return true;
   if (!has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) return false;
   robot.T_anchor_coverage_view = T_anchor_robot;
-  return uncovered_share(map, robot.local, T_anchor_robot, scan, robot.extractors[scan.laser]) > options.new_ground_share;
+  return uncovered_share(map, robot.local, T_anchor_robot, scan, robot.extractors[scan.laser]) >
+         options.new_ground_share;
 }
 
 void Mapper::State::take(const Event& event, const Sighting& sighting) {

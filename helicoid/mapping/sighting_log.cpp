@@ -4,18 +4,24 @@
 
 namespace helicoid {
 
+namespace {
+
+constexpr double kSameStamp = 2e-6;  ///< a trajectory's stamps are rounded, seconds
+
+}  // namespace
+
 std::optional<ManifoldPose> place_at(const Map& map, RobotId robot, double stamp, bool last) {
   const auto& scans = map.robot(robot).trajectory;
   // From the end: stamps may step back, and a sighting is recent.
   for (std::size_t i = scans.size(); i-- > 0;) {
-    if (scans[i].stamp > stamp) continue;
-    const TrackedScan& before = scans[i];
+    const TrackedScan before = scans[i];
+    if (before.stamp > stamp + kSameStamp) continue;
     if (i + 1 == scans.size()) {
-      if (last || before.stamp == stamp) return before.pose;
+      if (last || before.stamp >= stamp - kSameStamp) return before.pose;
       return std::nullopt;
     }
-    const TrackedScan& after = scans[i + 1];
-    const double share = (stamp - before.stamp) / std::max(after.stamp - before.stamp, 1e-9);
+    const TrackedScan after = scans[i + 1];
+    const double share = std::max(0.0, stamp - before.stamp) / std::max(after.stamp - before.stamp, 1e-9);
     const Pose2 T_before_after = map.project(before.pose).inverse() * map.project(after.pose);
     return ManifoldPose{before.pose.patch,
                         before.pose.T_patch_robot * exponential(std::min(share, 1.0) * logarithm(T_before_after))};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "helicoid/base/wide_lanes.hpp"
+
 namespace helicoid {
 
 namespace {
@@ -16,29 +18,22 @@ constexpr float kSurfaceGapBeams = 4.0F;
 constexpr std::size_t kMaxSupport = 6;
 constexpr float kMinPlanarity = 0.9F;
 
-/// The normal and the flatness of the points first..last about point i.
-struct Surface {
-  float nx = 0, ny = 0;
-  float scatter = 0;  ///< mean square distance from the line, m^2
-  bool flat = false;
+/// About the mean, m^2; 0 for fewer than three points.
+struct SecondMoments {
+  float xx = 0, xy = 0, yy = 0;
 };
 
-Surface fit_surface(const PrefixMoments& before, const PrefixMoments& after, float count) {
-  const double scale = 1 / static_cast<double>(count);
+SecondMoments second_moments(const PrefixMoments& before, const PrefixMoments& after, std::size_t count) {
+  static constexpr double kInverse[] = {0,       1,       1.0 / 2, 1.0 / 3,  1.0 / 4,  1.0 / 5,  1.0 / 6,
+                                        1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13};
+  static_assert(std::size(kInverse) == 2 * kMaxSupport + 2);
+  if (count < 3) return {};
+  const double scale = kInverse[count];
   const double mean_x = (after.x - before.x) * scale;
   const double mean_y = (after.y - before.y) * scale;
-  const auto sxx = static_cast<float>((after.xx - before.xx) * scale - mean_x * mean_x);
-  const auto sxy = static_cast<float>((after.xy - before.xy) * scale - mean_x * mean_y);
-  const auto syy = static_cast<float>((after.yy - before.yy) * scale - mean_y * mean_y);
-  const float half_difference = 0.5F * (sxx - syy);
-  const float spread = std::sqrt(half_difference * half_difference + sxy * sxy);
-  const float trace = sxx + syy;
-  if (spread <= 0 || 2 * spread < kMinPlanarity * trace) return {};
-  // The normal belongs to the smaller eigenvalue: across the direction in which the points spread.
-  const float nx = half_difference > 0 ? -sxy : spread - half_difference;
-  const float ny = half_difference > 0 ? spread + half_difference : -sxy;
-  const float unit = 1 / std::sqrt(nx * nx + ny * ny);
-  return {nx * unit, ny * unit, std::max(0.0F, 0.5F * trace - spread), true};
+  return {static_cast<float>((after.xx - before.xx) * scale - mean_x * mean_x),
+          static_cast<float>((after.xy - before.xy) * scale - mean_x * mean_y),
+          static_cast<float>((after.yy - before.yy) * scale - mean_y * mean_y)};
 }
 
 }  // namespace
@@ -51,6 +46,12 @@ void ScanPoints::resize(std::size_t count) {
   weight.resize(count);
   facing.resize(count);
   beam.resize(count);
+}
+
+void SupportMoments::resize(std::size_t count) {
+  xx.resize(count);
+  xy.resize(count);
+  yy.resize(count);
 }
 
 ScanPointExtractor::ScanPointExtractor(const LaserModel& laser) : laser_(laser), table_(make_beam_table(laser)) {}
@@ -75,26 +76,26 @@ const ScanPoints& ScanPointExtractor::extract(const Scan& scan) {
     spacing_[count++] = range * static_cast<float>(laser_.bearing_step);
   }
   points_.resize(count);
+  find_support();
   find_normals(laser_x, laser_y);
   return points_;
 }
 
-void ScanPointExtractor::find_normals(float laser_x, float laser_y) {
+void ScanPointExtractor::find_support() {
   const std::size_t count = points_.size();
   const float* x = points_.x.data();
   const float* y = points_.y.data();
   const auto square_distance = [x, y](std::size_t i, std::size_t j) {
     return (x[i] - x[j]) * (x[i] - x[j]) + (y[i] - y[j]) * (y[i] - y[j]);
   };
-  const auto noise = static_cast<float>(laser_.range_sigma * laser_.range_sigma);
   prefix_.resize(count + 1);
   for (std::size_t i = 0; i < count; ++i) prefix_[i + 1] = prefix_[i].plus(x[i], y[i]);
+  moments_.resize(count);
   std::size_t begin = 0;  // of the surface on which point i lies; end is one past it
   std::size_t end = 0;
   std::size_t first = 0;  // first..last support point i
   std::size_t last = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    points_.nx[i] = points_.ny[i] = points_.weight[i] = points_.facing[i] = 0;
     if (i >= end) {
       begin = i;
       for (end = i + 1; end < count; ++end) {
@@ -109,18 +110,48 @@ void ScanPointExtractor::find_normals(float laser_x, float laser_y) {
     last = std::max(last, i);
     while (last > i && square_distance(last, i) > square) --last;
     while (last + 1 < end && last < i + kMaxSupport && square_distance(last + 1, i) <= square) ++last;
-    if (last - first < 2) continue;
-    const Surface surface = fit_surface(prefix_[first], prefix_[last + 1], static_cast<float>(last - first + 1));
-    if (!surface.flat) continue;
+    const SecondMoments m = second_moments(prefix_[first], prefix_[last + 1], last - first + 1);
+    moments_.xx[i] = m.xx;
+    moments_.xy[i] = m.xy;
+    moments_.yy[i] = m.yy;
+  }
+}
+
+HELICOID_WIDE_LANES
+void ScanPointExtractor::find_normals(float laser_x, float laser_y) {
+  const auto noise = static_cast<float>(laser_.range_sigma * laser_.range_sigma);
+  const std::size_t count = points_.size();
+  const float* __restrict x = points_.x.data();
+  const float* __restrict y = points_.y.data();
+  const float* __restrict xx = moments_.xx.data();
+  const float* __restrict xy = moments_.xy.data();
+  const float* __restrict yy = moments_.yy.data();
+  float* __restrict normal_x = points_.nx.data();
+  float* __restrict normal_y = points_.ny.data();
+  float* __restrict facing = points_.facing.data();
+  float* __restrict weight = points_.weight.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float half_difference = 0.5F * (xx[i] - yy[i]);
+    const float trace = xx[i] + yy[i];
+    const float spread = std::sqrt(half_difference * half_difference + xy[i] * xy[i]);
+    const bool is_flat = (spread > 0) & (2 * spread >= kMinPlanarity * trace);
+    // The normal belongs to the smaller eigenvalue: across the direction in which the points spread.
+    const float nx = half_difference > 0 ? -xy[i] : spread - half_difference;
+    const float ny = half_difference > 0 ? spread + half_difference : -xy[i];
     const float to_laser_x = laser_x - x[i];
     const float to_laser_y = laser_y - y[i];
-    const float towards = to_laser_x * surface.nx + to_laser_y * surface.ny;
-    points_.nx[i] = towards < 0 ? -surface.nx : surface.nx;
-    points_.ny[i] = towards < 0 ? -surface.ny : surface.ny;
-    points_.facing[i] =
-        std::min(1.0F, std::abs(towards) / std::sqrt(to_laser_x * to_laser_x + to_laser_y * to_laser_y + 1e-12F));
+    const float towards = to_laser_x * nx + to_laser_y * ny;
+    const float length = std::sqrt(nx * nx + ny * ny);
+    const float unit = (towards < 0 ? -1.0F : 1.0F) / (is_flat ? length : 1.0F);
+    const float distance = std::sqrt(to_laser_x * to_laser_x + to_laser_y * to_laser_y + 1e-12F);
     // What scatters more than the laser's noise is no flat surface: it counts less.
-    points_.weight[i] = noise / (noise + 0.5F * std::max(0.0F, surface.scatter - noise));
+    const float scatter = 0.5F * trace - spread;
+    const float excess = scatter > noise ? scatter - noise : 0.0F;
+    const float cosine = towards * unit / distance;
+    normal_x[i] = is_flat ? nx * unit : 0.0F;
+    normal_y[i] = is_flat ? ny * unit : 0.0F;
+    facing[i] = is_flat ? (cosine < 1 ? cosine : 1.0F) : 0.0F;
+    weight[i] = is_flat ? noise / (noise + 0.5F * excess) : 0.0F;
   }
 }
 

@@ -36,6 +36,12 @@ struct PrefixMoments {
   }
 };
 
+/// The second moments, about their mean, of the points that support each point; 0 where there are fewer than three.
+struct SupportMoments {
+  std::vector<float> xx, xy, yy;  ///< m^2
+  void resize(std::size_t count);
+};
+
 /// Turns scans of one laser into points; keeps its tables and buffers between scans, so that no scan allocates.
 class ScanPointExtractor {
  public:
@@ -46,6 +52,7 @@ class ScanPointExtractor {
   [[nodiscard]] const BeamTable& beams() const { return table_; }
 
  private:
+  void find_support();
   void find_normals(float laser_x, float laser_y);
 
   LaserModel laser_;
@@ -53,6 +60,7 @@ class ScanPointExtractor {
   ScanPoints points_;
   std::vector<float> spacing_;  ///< between neighbouring beams at a point's range, metres
   std::vector<PrefixMoments> prefix_;
+  SupportMoments moments_;
 };
 
 }  // namespace helicoid

@@ -53,7 +53,7 @@ void encode(BlobWriter& blob, const TrackedScan& scan) {
   blob.put(scan.stamp);
   blob.put(scan.pose.patch.value);
   blob.put(scan.pose.T_patch_robot);
-  blob.put(scan.T_island_robot_online);
+  blob.put(scan.T_island_patch_online);
   blob.put_matrix(scan.covariance);
 }
 
@@ -62,7 +62,7 @@ TrackedScan decode_tracked_scan(BlobReader& blob) {
   scan.stamp = blob.get<double>();
   scan.pose.patch = PatchId{blob.get<std::uint32_t>()};
   scan.pose.T_patch_robot = blob.get_pose();
-  scan.T_island_robot_online = blob.get_pose();
+  scan.T_island_patch_online = blob.get_pose();
   scan.covariance = blob.get_matrix<Matrix3d>();
   return scan;
 }

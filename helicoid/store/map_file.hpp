@@ -10,8 +10,8 @@
 
 namespace helicoid {
 
-/// The layout that this version writes. Older ones are read; newer ones are refused.
-inline constexpr int kMapSchemaVersion = 1;
+/// The layout that this version writes and reads.
+inline constexpr int kMapSchemaVersion = 2;
 
 /// Writes the map beside `path`, flushes it to the disc and renames it: a reader finds the old file or the new one,
 /// never a half. The same map gives the same bytes. Errors: the place cannot be written, the disc is full.

@@ -61,7 +61,11 @@ Result<void> check_kind(Database& db, const std::string& path) {
   const auto version = number(fact(db, "schema_version"));
   if (!version || *version < 1) return fail("{}: is damaged: it does not say its schema_version", path);
   if (*version > kMapSchemaVersion) {
-    return fail("{}: has schema_version {}, this Helicoid reads up to {}; use a newer Helicoid", path, *version,
+    return fail("{}: has schema_version {}, this Helicoid reads {}; use a newer Helicoid", path, *version,
+                kMapSchemaVersion);
+  }
+  if (*version < kMapSchemaVersion) {
+    return fail("{}: has schema_version {}, this Helicoid reads {}; map the logs again", path, *version,
                 kMapSchemaVersion);
   }
   return {};

@@ -1,0 +1,92 @@
+// Where a robot's scans were taken, in twenty bytes a scan: on known ground they are all that a map grows by.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <iterator>
+#include <vector>
+
+#include "helicoid/base/ids.hpp"
+#include "helicoid/geometry/pose2.hpp"
+
+namespace helicoid {
+
+/// A pose on the manifold: the paper's rho = (pi, r).
+struct ManifoldPose {
+  PatchId patch;
+  Pose2 T_patch_robot;
+  friend bool operator==(const ManifoldPose&, const ManifoldPose&) = default;
+};
+
+/// Where one scan was taken. The same place whatever a later fit does to the patch's pose.
+struct TrackedScan {
+  double stamp = 0;                        ///< seconds
+  ManifoldPose pose;                       ///< as matched
+  Pose2 T_island_patch_online;             ///< where the patch was projected when the scan was taken
+  Matrix3d covariance = Matrix3d::Zero();  ///< of T_patch_robot, in the patch's frame, noise floor not included
+
+  /// The projected pose as it was first reported.
+  [[nodiscard]] Pose2 T_island_robot_online() const { return T_island_patch_online * pose.T_patch_robot; }
+};
+
+/// One entry a scan, in the log's order. What is read differs from what was appended by rounding: stamps by a
+/// microsecond, positions by the precision of a float, headings by 5e-5 rad; standard deviations are rounded up by at
+/// most a sixteenth. Appending what was read gives the same trajectory, to the bit.
+class Trajectory {
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = TrackedScan;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = TrackedScan;
+    Iterator(const Trajectory& trajectory, std::size_t at) : trajectory_(&trajectory), at_(at) {}
+    TrackedScan operator*() const;
+    Iterator& operator++();
+    bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+   private:
+    const Trajectory* trajectory_;
+    std::size_t at_;
+    std::size_t stretch_ = 0;
+  };
+
+  void push_back(const TrackedScan& scan);
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+  [[nodiscard]] bool empty() const { return places_.empty(); }
+  [[nodiscard]] TrackedScan operator[](std::size_t i) const;
+  [[nodiscard]] TrackedScan front() const { return (*this)[0]; }
+  [[nodiscard]] TrackedScan back() const { return (*this)[size() - 1]; }
+  [[nodiscard]] Iterator begin() const { return {*this, 0}; }
+  [[nodiscard]] Iterator end() const { return {*this, size()}; }
+  /// Memory, bookkeeping left out.
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  /// Scans in a row on one patch whose pose did not change meanwhile.
+  struct Stretch {
+    std::size_t first = 0;
+    double stamp = 0;  ///< of the first
+    PatchId patch;
+    Pose2 T_island_patch;
+  };
+  struct Place {
+    float x, y;                               ///< of T_patch_robot
+    std::uint32_t microseconds;               ///< since the stretch began
+    std::uint16_t yaw;                        ///< of T_patch_robot, in 65536ths of a turn
+    std::array<std::uint8_t, 3> deviations;   ///< of x, y and yaw: steps of a logarithmic scale
+    std::array<std::int8_t, 3> correlations;  ///< of (x, y), (x, yaw), (y, yaw): 127ths
+  };
+
+  [[nodiscard]] TrackedScan read(const Stretch& stretch, const Place& place) const;
+  static void put_covariance(Place& place, const Matrix3d& covariance);
+  static Matrix3d covariance_of(const Place& place);
+
+  std::vector<Stretch> stretches_;
+  std::deque<Place> places_;
+};
+
+}  // namespace helicoid
