@@ -40,6 +40,7 @@ class LinearSystem {
   [[nodiscard]] const BlockMatrix& information() const { return H_; }
   [[nodiscard]] std::span<const double> gradient() const { return gradient_; }
   [[nodiscard]] const Supernodes& supernodes() const { return supernodes_; }
+  [[nodiscard]] const BlockCholesky& factor() const { return cholesky_; }
   [[nodiscard]] std::size_t factor_size() const { return cholesky_.size(); }
   /// Where a node's three numbers begin in steps and gradients.
   [[nodiscard]] std::size_t offset(std::uint32_t node) const {

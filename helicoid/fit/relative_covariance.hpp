@@ -2,8 +2,10 @@
 // graph. A few right-hand sides a pair, or selected inversion for all poses at once; never a dense inverse.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "helicoid/fit/fit_graph.hpp"
 #include "helicoid/geometry/covariance.hpp"
@@ -27,6 +29,8 @@ class RelativeCovariance {
   [[nodiscard]] UncertainPose2 of(std::uint32_t a, std::uint32_t b) const;
   /// Of every pose relative to a, in a's frame. Factorises with a held.
   [[nodiscard]] std::vector<UncertainPose2> relative_to(std::uint32_t a);
+  /// As factorised last; of two poses at least.
+  [[nodiscard]] const LinearSystem& system() const { return *system_; }
 
  private:
   bool factorise(std::uint32_t held);

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "helicoid/fit/confident_pairs.hpp"
 #include "helicoid/geometry/polysolid.hpp"
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/manifold/neighbours.hpp"
@@ -90,15 +91,16 @@ TEST(Manifold, NeighboursAreThePatchesThatOverlapAndAreConfidentOfEachOther) {
   const Map& map = two_laps();
   const Neighbours neighbours = find_neighbours(map);
   const NeighbourOptions limits;
-  const InformationGraph graph = information_graph(map);
-  std::vector<std::vector<bool>> confident(map.patch_count(), std::vector<bool>(map.patch_count(), false));
+  ASSERT_EQ(map.islands().size(), 1U);
+  const std::vector<GraphEdge> edges = graph_edges(map, map.islands().front());
+  const RelativeCovariance covariance(map.poses(), edges);
+  const auto are_confident = [&](std::size_t i, std::size_t j) {
+    const ConfidenceInterval interval =
+        midway_interval(covariance.of(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)));
+    return interval.position < limits.position && interval.heading < limits.heading;
+  };
   std::vector<Polysolid> space;
-  for (std::size_t i = 0; i < map.patch_count(); ++i) {
-    const BoundOptions bound = bound_options(map.patch(make_id<PatchId>(i)), limits.position, limits.heading, 100);
-    for (const BoundedPose& b : tree_bound(graph, map.poses(), static_cast<std::uint32_t>(i), bound))
-      confident[i][b.pose] = true;
-    space.push_back(free_space(map, make_id<PatchId>(i)));
-  }
+  for (std::size_t i = 0; i < map.patch_count(); ++i) space.push_back(free_space(map, make_id<PatchId>(i)));
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < map.patch_count(); ++i) {
     for (std::size_t j = i + 1; j < map.patch_count(); ++j) {
@@ -106,9 +108,9 @@ TEST(Manifold, NeighboursAreThePatchesThatOverlapAndAreConfidentOfEachOther) {
       EXPECT_EQ(found, std::count(neighbours[j].begin(), neighbours[j].end(), make_id<PatchId>(i)) > 0);
       if (found) {
         ++pairs;
-        EXPECT_TRUE(confident[i][j] && confident[j][i]);
+        EXPECT_TRUE(are_confident(i, j));
         EXPECT_GT(area(intersection(space[i], space[j])), 0);
-      } else if (confident[i][j] && confident[j][i]) {
+      } else if (are_confident(i, j)) {
         // The raster has 10 cm cells on every third row: what it may miss is thin.
         EXPECT_EQ(area(offset(intersection(space[i], space[j]), -0.20)), 0);
       }
