@@ -34,6 +34,20 @@ std::array<Vector5d, 2> point_point_rows(const Vector2d& p_b, const Vector2d& q_
   return {point_line_row(p_b, q_a, Vector2d::UnitX()), point_line_row(p_b, q_a, Vector2d::UnitY())};
 }
 
+std::array<Vector5d, 3> line_line_rows(const LineSegment& line_b, const LineSegment& line_a) {
+  const Vector2d& n_a = line_a.normal;
+  const Vector2d& n_b = line_b.normal;
+  // n_a x (R n_b), in the cosine and the sine of R.
+  Vector5d sine = Vector5d::Zero();
+  sine[0] = n_a.x() * n_b.y() - n_a.y() * n_b.x();
+  sine[1] = n_a.dot(n_b);
+  return {point_line_row(line_b.start, line_a.start, n_a), point_line_row(line_b.end, line_a.start, n_a), sine};
+}
+
+bool normals_agree(const Pose2& T_a_b, const LineSegment& line_b, const LineSegment& line_a) {
+  return line_a.normal.dot(T_a_b.rotation() * line_b.normal) > 0;
+}
+
 PairForm pose_pose_form(const Pose2& T_a_b_measured, const Matrix3d& information) {
   Eigen::Matrix<double, 3, 5> G = Eigen::Matrix<double, 3, 5>::Zero();
   G(0, 2) = 1;

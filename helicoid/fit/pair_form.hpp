@@ -31,6 +31,18 @@ struct PairForm {
 /// The two g's of a point-to-point correspondence (eq. 7): along a's axes.
 [[nodiscard]] std::array<Vector5d, 2> point_point_rows(const Vector2d& p_b, const Vector2d& q_a);
 
+/// A stretch of a wall as a patch sees it, metres, in the patch's frame.
+struct LineSegment {
+  Vector2d start = Vector2d::Zero();
+  Vector2d end = Vector2d::Zero();
+  Vector2d normal = Vector2d::UnitY();  ///< unit, towards the side it was seen from
+};
+/// The three g's of a line-to-line correspondence (III-B): both ends of b's segment on a's line, metres, and the sine
+/// of the angle between the lines. A sine does not tell a wall from its back: ask `normals_agree` before.
+[[nodiscard]] std::array<Vector5d, 3> line_line_rows(const LineSegment& line_b, const LineSegment& line_a);
+/// Whether both were seen from the same side, as T_a_b has it.
+[[nodiscard]] bool normals_agree(const Pose2& T_a_b, const LineSegment& line_b, const LineSegment& line_a);
+
 /// The pose-pose relation (t - t_measured, sin(phi - phi_measured)), linear in v as well; information in a's frame.
 [[nodiscard]] PairForm pose_pose_form(const Pose2& T_a_b_measured, const Matrix3d& information);
 

@@ -85,6 +85,66 @@ TEST(PairForm, EqualsItsCorrespondencesFarFromWhereTheyWereMatched) {
   }
 }
 
+/// Segments of b and the lines of a that they lie on, nearly.
+std::vector<std::pair<LineSegment, LineSegment>> random_lines(Random& random, int count, const Pose2& T_a_b) {
+  std::vector<std::pair<LineSegment, LineSegment>> all;
+  for (int k = 0; k < count; ++k) {
+    const auto segment = [&random](const Vector2d& middle, double direction, double half) {
+      const Vector2d along(std::cos(direction), std::sin(direction));
+      return LineSegment{middle - half * along, middle + half * along, {-along.y(), along.x()}};
+    };
+    const Vector2d middle(random.uniform(-10, 10), random.uniform(-10, 10));
+    const double direction = random.uniform(-3.14, 3.14);
+    const Vector2d near(0.1 * random.normal(), 0.1 * random.normal());
+    all.emplace_back(segment(middle, direction, random.uniform(0.2, 3)),
+                     segment(T_a_b * middle + near, direction + T_a_b.yaw + 0.05 * random.normal(), 2));
+  }
+  return all;
+}
+
+TEST(PairForm, EqualsItsLinesWhateverTheirNumber) {
+  constexpr double kWeights[] = {400, 400, 1e4};  // 1/m^2, 1/m^2, 1/rad^2
+  Random random(9);
+  for (const int count : {1, 2, 3, 10, 100, 1000, 10000}) {
+    SCOPED_TRACE(count);
+    const Pose2 T_a_b = random_pose(random);
+    const Pose2 at = T_a_b * Pose2{0.3, -0.2, 0.1};
+    PairForm form;
+    PairExpansion direct;
+    for (const auto& [line_b, line_a] : random_lines(random, count, T_a_b)) {
+      const std::array<Vector5d, 3> rows = line_line_rows(line_b, line_a);
+      for (std::size_t i = 0; i < 3; ++i) form.add(rows[i], kWeights[i]);
+      const PairExpansion ends = expand_directly(
+          {{line_b.start, line_a.start, line_a.normal, 400}, {line_b.end, line_a.start, line_a.normal, 400}}, at);
+      // By the angle itself: the direction of the normals, and how its sine changes.
+      const double angle =
+          at.yaw + std::atan2(line_b.normal.y(), line_b.normal.x()) - std::atan2(line_a.normal.y(), line_a.normal.x());
+      const Vector3d J(0, 0, std::cos(angle));
+      direct.cost += ends.cost + 0.5 * 1e4 * std::sin(angle) * std::sin(angle);
+      direct.gradient += ends.gradient + 1e4 * std::sin(angle) * J;
+      direct.information += ends.information + 1e4 * J * J.transpose();
+    }
+    expect_equal(expand(form, at), direct);
+  }
+}
+
+TEST(PairForm, OfALineItsLengthwisePositionIsOpen) {
+  const LineSegment wall{{-1, 2}, {3, 2}, Vector2d::UnitY()};
+  PairForm form;
+  for (const Vector5d& g : line_line_rows(wall, wall)) form.add(g, 1);
+  EXPECT_NEAR(form.cost({5, 0, 0}), 0, 1e-15);
+  EXPECT_GT(form.cost({0, 0.1, 0}), 1e-3);
+  EXPECT_GT(form.cost({0, 0, 0.1}), 1e-3);
+}
+
+TEST(NormalsAgree, OnlyWhereBothSawTheSameSide) {
+  const LineSegment wall{{-1, 2}, {3, 2}, Vector2d::UnitY()};
+  const LineSegment back{{-1, 2}, {3, 2}, -Vector2d::UnitY()};
+  EXPECT_TRUE(normals_agree({4, 1, 0.3}, wall, wall));
+  EXPECT_FALSE(normals_agree({4, 1, 0.3}, back, wall));
+  EXPECT_TRUE(normals_agree({4, 1, 3}, back, wall));
+}
+
 TEST(PairForm, PointToPointIsTheSquaredDistance) {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
