@@ -106,13 +106,16 @@ std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<con
   return found;
 }
 
-std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph, std::span<const Pose2> T_plane,
-                                                std::span<const std::uint32_t> poses) {
+namespace {
+
+/// Information about all `poses` but the first, which is held, in its frame: so that the result does not turn with the
+/// plane.
+Eigen::MatrixXd subgraph_information(const InformationGraph& graph, std::span<const Pose2> T_plane,
+                                     std::span<const std::uint32_t> poses) {
   std::vector<std::int32_t> place(graph.size(), -1);
   for (std::size_t i = 0; i < poses.size(); ++i) place[poses[i]] = static_cast<std::int32_t>(i);
   const auto unknowns = static_cast<Eigen::Index>(3 * (poses.size() - 1));
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(unknowns, unknowns);
-  // Everything in the frame of poses[0], so that the result does not turn with the plane.
   const Pose2 T_reference_plane = T_plane[poses[0]].inverse();
   for (const std::uint32_t a : poses) {
     const Pose2 T_ref_a = T_reference_plane * T_plane[a];
@@ -120,8 +123,7 @@ std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph, s
       const std::int32_t j = place[edge.to];
       const std::int32_t i = place[a];
       if (j < 0 || edge.to < a) continue;
-      const Pose2 T_ref_b = T_reference_plane * T_plane[edge.to];
-      const Pose2 T_a_b = T_ref_a.inverse() * T_ref_b;
+      const Pose2 T_a_b = T_ref_a.inverse() * (T_reference_plane * T_plane[edge.to]);
       Matrix3d by_b = Matrix3d::Identity();
       by_b.topLeftCorner<2, 2>() = T_ref_a.rotation().transpose();
       Matrix3d by_a = -by_b;
@@ -138,12 +140,21 @@ std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph, s
       }
     }
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(H);
+  return H;
+}
+
+}  // namespace
+
+std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph, std::span<const Pose2> T_plane,
+                                                std::span<const std::uint32_t> poses) {
   std::vector<UncertainPose2> result(poses.size());
-  if (unknowns == 0) return result;
+  if (poses.size() < 2) return result;
+  const Eigen::MatrixXd H = subgraph_information(graph, T_plane, poses);
+  const Eigen::LLT<Eigen::MatrixXd> factor(H);
   const bool solved = factor.info() == Eigen::Success;
   const Eigen::MatrixXd covariance =
-      solved ? Eigen::MatrixXd(factor.solve(Eigen::MatrixXd::Identity(unknowns, unknowns))) : Eigen::MatrixXd();
+      solved ? Eigen::MatrixXd(factor.solve(Eigen::MatrixXd::Identity(H.rows(), H.cols()))) : Eigen::MatrixXd();
+  const Pose2 T_reference_plane = T_plane[poses[0]].inverse();
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(3 * (i - 1));
     result[i].T_a_b = T_reference_plane * T_plane[poses[i]];

@@ -58,7 +58,8 @@ struct BoundedPose {
 [[nodiscard]] Matrix3d with_noise_floor(const UncertainPose2& ab, const Matrix3d& floor_a, const Matrix3d& floor_b);
 
 /// The covariance of all `poses` relative to poses[0] from the relations among them alone: exact for that sub-graph, a
-/// bound for the whole. Dense: meant for some tens of poses. Empty matrices where the sub-graph leaves a pose open.
+/// bound for the whole. Dense: meant for some tens of poses. All infinite where the sub-graph leaves a pose
+/// open: no limit admits them.
 [[nodiscard]] std::vector<UncertainPose2> subgraph_covariance(const InformationGraph& graph,
                                                               std::span<const Pose2> T_plane,
                                                               std::span<const std::uint32_t> poses);

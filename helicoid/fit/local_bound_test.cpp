@@ -225,7 +225,7 @@ TEST(LocalBound, WhatIsNotConnectedIsAbsentAndNotCertain) {
   EXPECT_EQ(bounded[1].pose, 1U);
   const std::vector<std::uint32_t> all{0, 1, 2, 3};
   const auto sub = subgraph_covariance(graph.information(), graph.poses, all);
-  EXPECT_FALSE(sub[2].covariance.allFinite() && sub[2].covariance.norm() < 1e6);
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_FALSE(sub[i].covariance.allFinite());
 }
 
 TEST(LocalBound, WhatARelationLeavesOpenIsAbsent) {
