@@ -118,6 +118,44 @@ TEST(IncrementalFit, AFullSolveGoesOnWithTheSameGraph) {
   EXPECT_NEAR(growing.fitted.cost(), full.final_cost, 1e-6 * full.final_cost);
 }
 
+TEST(IncrementalFit, LandmarksPriorsAndRobustLossesEndAtTheBatchOptimum) {
+  for (const LossKind kind : {LossKind::quadratic, LossKind::huber, LossKind::cauchy}) {
+    IncrementalOptions options;
+    options.loss = {kind, 2, 0};
+    IncrementalFit fitted(options);
+    RelationGraph graph;
+    const auto relate = [&](const GraphRelation& r) { fitted.add_relation(r), graph.relations.push_back(r); };
+    const auto add = [&](const Pose2& start, bool is_landmark) {
+      graph.is_landmark.push_back(is_landmark);
+      return fitted.add_pose(start, is_landmark);
+    };
+    Random random(8);
+    std::uint32_t last = add({}, false);
+    std::uint32_t landmark = last;
+    // No pose is held: priors say where the first one and every fortieth stand.
+    relate({kWorld, last, PosePose{{}, 1e4 * Matrix3d::Identity()}, false});
+    for (int i = 1; i < 200; ++i) {
+      const PosePose odometry = noisy({1, 0, 0.05}, random);
+      const std::uint32_t next = add(fitted.pose(last) * odometry.T_a_b, false);
+      relate({last, next, odometry, false});
+      if (i % 20 == 1) landmark = add(fitted.pose(next) * Pose2{2, 1, 0}, true);
+      const Vector2d seen = fitted.pose(next).inverse() * fitted.pose(landmark).translation();
+      const double outlier = i % 7 == 0 ? 1.5 : 0.1;
+      relate({next, landmark,
+              PointPosition{seen + outlier * Vector2d(random.normal(), random.normal()), 100 * Matrix2d::Identity()},
+              true});
+      if (i % 40 == 0) relate({kWorld, next, noisy(fitted.pose(next), random), true});
+      EXPECT_TRUE(fitted.update().is_determined);
+      last = next;
+    }
+    for (int i = 0; i < 30; ++i) fitted.update();
+    graph.poses = fitted.poses();
+    FitOptions batch;
+    batch.loss = options.loss;
+    EXPECT_LE(fitted.cost(), 1.01 * fit(graph, {}, batch).final_cost) << "loss " << static_cast<int>(kind);
+  }
+}
+
 TEST(IncrementalFit, StepsRepeatToTheBit) {
   const auto steps = walk_on_grid(7, 400);
   Growing first, second;
