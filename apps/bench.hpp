@@ -14,6 +14,7 @@ namespace helicoid {
 struct BenchOptions {
   std::string data;     ///< the folder of recorded data; empty: there is none
   std::string program;  ///< the path of this program, for measurements in a process of their own
+  bool large = false;   ///< also what takes a minute and gigabytes
   int repeats = 3;      ///< the least CPU time of so many runs counts
 };
 

@@ -91,6 +91,7 @@ void add_bench_verb(CLI::App& program, int& exit_code) {
   verb->add_option("--filter", a->filter,
                    "only benchmarks whose name holds this (read, rays, fit, map, laps, office, ...)");
   verb->add_option("--data", a->options.data, "the folder of recorded data; logs that are not there are skipped");
+  verb->add_flag("--large", a->options.large, "also what takes a minute and gigabytes (fit grid 1000000)");
   verb->add_option("--repeats", a->options.repeats, "the least CPU time of so many runs counts")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();

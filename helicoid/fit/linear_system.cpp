@@ -20,10 +20,13 @@ Adjacency adjacency_of(const RelationGraph& graph) {
 }  // namespace
 
 LinearSystem::LinearSystem(const RelationGraph& graph, std::span<const std::uint32_t> fixed, Ordering ordering)
+    : LinearSystem(graph, fixed, adjacency_of(graph), ordering) {}
+
+LinearSystem::LinearSystem(const RelationGraph& graph, std::span<const std::uint32_t> fixed, const Adjacency& adjacency,
+                           Ordering ordering)
     : graph_(&graph),
-      adjacency_(adjacency_of(graph)),
-      supernodes_(find_supernodes(adjacency_, find_elimination_order(adjacency_, ordering))),
-      H_(make_block_matrix(adjacency_, supernodes_)),
+      supernodes_(find_supernodes(adjacency, find_elimination_order(adjacency, ordering))),
+      H_(make_block_matrix(adjacency, supernodes_)),
       gradient_(kBlock * graph.poses.size()),
       cholesky_(supernodes_) {
   if (!graph.is_landmark.empty()) {
@@ -31,6 +34,9 @@ LinearSystem::LinearSystem(const RelationGraph& graph, std::span<const std::uint
   }
   hold(fixed);
   tie_up();
+  // The symbolic phase leaves small pieces behind that nothing large fits into.
+  constexpr std::size_t kManyPoses = 100000;
+  if (graph.poses.size() > kManyPoses) release_free_memory();
 }
 
 void LinearSystem::hold(std::span<const std::uint32_t> fixed) {
@@ -52,12 +58,14 @@ void LinearSystem::tie_up() {
     ties_.push_back(tie);
   }
   std::stable_sort(ties_.begin(), ties_.end(), [](const Tie& l, const Tie& r) { return l.block < r.block; });
+  turned_.reserve(ties_.size());
   for (const Tie& tie : ties_) {
-    TurnedPosePose turned{0, 0, 0, Matrix3d::Zero()};
+    TurnedPosePose turned{};
     if (const auto* m = std::get_if<PosePose>(&graph_->relations[tie.relation].measurement)) {
       Matrix3d turn = Matrix3d::Identity();
       turn.topLeftCorner<2, 2>() = m->T_a_b.rotation();
-      turned = {m->T_a_b.x, m->T_a_b.y, m->T_a_b.yaw, turn * m->information * turn.transpose()};
+      const Matrix3d I = turn * m->information * turn.transpose();
+      turned = {m->T_a_b.x, m->T_a_b.y, m->T_a_b.yaw, I(0, 0), I(1, 0), I(2, 0), I(1, 1), I(2, 1), I(2, 2)};
     }
     turned_.push_back(turned);
   }
@@ -68,8 +76,10 @@ PairExpansion LinearSystem::expand_tie(std::size_t tie, const RelativePose& T_a_
   if (!std::holds_alternative<PosePose>(measurement)) return expand(measurement, T_a_b);
   const TurnedPosePose& m = turned_[tie];
   const Vector3d e(T_a_b.x - m.x, T_a_b.y - m.y, wrap_small(T_a_b.yaw - m.yaw));
-  const Vector3d gradient = m.information * e;
-  return {0.5 * e.dot(gradient), gradient, m.information};
+  Matrix3d information;
+  information << m.xx, m.yx, m.ax, m.yx, m.yy, m.ay, m.ax, m.ay, m.aa;
+  const Vector3d gradient = information * e;
+  return {0.5 * e.dot(gradient), gradient, information};
 }
 
 std::vector<LinearSystem::Frame> LinearSystem::frames(std::span<const Pose2> poses) const {

@@ -54,6 +54,9 @@ class LinearSystem {
                                          double scale = 1) const;
 
  private:
+  LinearSystem(const RelationGraph& graph, std::span<const std::uint32_t> fixed, const Adjacency& adjacency,
+               Ordering ordering);
+
   /// A relation as linearising needs it; sorted by where it writes.
   struct Tie {
     std::int32_t a;  ///< places; -1 is the world
@@ -67,7 +70,7 @@ class LinearSystem {
   /// A pose-pose relation as it is used again and again: its residual turned into a's frame.
   struct TurnedPosePose {
     double x, y, yaw;
-    Matrix3d information;  ///< zero of other relations
+    double xx, yx, ax, yy, ay, aa;  ///< the information's lower half, `a` the angle; zero of other relations
   };
   void tie_up();
   [[nodiscard]] PairExpansion expand_tie(std::size_t tie, const RelativePose& T_a_b) const;
@@ -77,7 +80,6 @@ class LinearSystem {
   void close_fixed();
 
   const RelationGraph* graph_;
-  Adjacency adjacency_;
   Supernodes supernodes_;
   BlockMatrix H_;
   std::vector<Tie> ties_;

@@ -73,52 +73,73 @@ struct Group {
 };
 
 /// Columns whose structures nest without loss; the structure of each group only once.
-std::vector<Group> fundamental_groups(const Adjacency& graph, std::span<const std::int32_t> order,
-                                      std::span<const std::int32_t> place, std::span<const std::int32_t> parent) {
-  const auto nodes = static_cast<std::int32_t>(order.size());
-  std::vector<Group> groups;
-  std::vector<std::int32_t> group_of(order.size(), -1);
-  std::vector<std::int32_t> stamp(order.size(), -1);
-  // The groups that hang below each node, as linked lists; -1 ends them.
-  std::vector<std::int32_t> child(order.size(), -1);
-  std::vector<std::int32_t> sibling;
-  std::vector<std::int32_t> rows;
-  groups.reserve(order.size());
-  sibling.reserve(order.size());
-  for (std::int32_t j = 0; j < nodes; ++j) {
-    rows.clear();
-    stamp[j] = j;
-    const auto add = [&](std::int32_t i) {
-      if (i <= j || stamp[i] == j) return;
-      stamp[i] = j;
-      rows.push_back(i);
-    };
-    for (const std::int32_t neighbour : graph.of(order[j])) add(place[neighbour]);
-    for (std::int32_t g = child[j]; g >= 0; g = sibling[g]) {
-      for (const std::int32_t i : groups[g].rows) add(i);
+class FundamentalGroups {
+ public:
+  FundamentalGroups(const Adjacency& graph, std::span<const std::int32_t> order, std::span<const std::int32_t> place,
+                    std::span<const std::int32_t> parent)
+      : graph_(graph), order_(order), place_(place), parent_(parent) {
+    for (auto* list : {&group_of_, &stamp_, &child_}) list->assign(order.size(), -1);
+    groups_.reserve(order.size());
+    sibling_.reserve(order.size());
+  }
+
+  std::vector<Group> run() {
+    for (std::int32_t j = 0; j < static_cast<std::int32_t>(order_.size()); ++j) {
+      find_rows(j);
+      add_column(j);
     }
+    for (Group& group : groups_) std::sort(group.rows.begin(), group.rows.end());
+    return std::move(groups_);
+  }
+
+ private:
+  void find_rows(std::int32_t j) {
+    rows_.clear();
+    stamp_[j] = j;
+    const auto add = [&](std::int32_t i) {
+      if (i <= j || stamp_[i] == j) return;
+      stamp_[i] = j;
+      rows_.push_back(i);
+    };
+    for (const std::int32_t neighbour : graph_.of(order_[j])) add(place_[neighbour]);
+    for (std::int32_t g = child_[j]; g >= 0; g = sibling_[g]) {
+      for (const std::int32_t i : groups_[g].rows) add(i);
+    }
+  }
+
+  /// To the group of the column before, if nothing is lost; otherwise to a new one.
+  void add_column(std::int32_t j) {
     // In a postorder j - 1 is a child of j if j has any.
-    const std::int32_t last = j > 0 && parent[j - 1] == j ? group_of[j - 1] : -1;
-    if (last >= 0 && groups[last].rows.size() == rows.size() + 1) {
-      group_of[j] = last;
-      groups[last].columns.push_back(j);
-      for (std::int32_t g = child[j]; g >= 0; g = sibling[g]) {
-        if (g != last) groups[g].parent = last;
+    const std::int32_t last = j > 0 && parent_[j - 1] == j ? group_of_[j - 1] : -1;
+    if (last >= 0 && groups_[last].rows.size() == rows_.size() + 1) {
+      group_of_[j] = last;
+      groups_[last].columns.push_back(j);
+      for (std::int32_t g = child_[j]; g >= 0; g = sibling_[g]) {
+        if (g != last) groups_[g].parent = last;
       }
     } else {
-      group_of[j] = static_cast<std::int32_t>(groups.size());
-      for (std::int32_t g = child[j]; g >= 0; g = sibling[g]) groups[g].parent = group_of[j];
-      groups.push_back({{j}, {}, -1, 0, false});
-      sibling.push_back(-1);
+      group_of_[j] = static_cast<std::int32_t>(groups_.size());
+      for (std::int32_t g = child_[j]; g >= 0; g = sibling_[g]) groups_[g].parent = group_of_[j];
+      groups_.push_back({{j}, {}, -1, 0, false});
+      sibling_.push_back(-1);
     }
-    groups[group_of[j]].rows.assign(rows.begin(), rows.end());
-    if (parent[j] < 0) continue;
-    sibling[group_of[j]] = child[parent[j]];
-    child[parent[j]] = group_of[j];
+    groups_[group_of_[j]].rows.assign(rows_.begin(), rows_.end());
+    if (parent_[j] < 0) return;
+    sibling_[group_of_[j]] = child_[parent_[j]];
+    child_[parent_[j]] = group_of_[j];
   }
-  for (Group& group : groups) std::sort(group.rows.begin(), group.rows.end());
-  return groups;
-}
+
+  const Adjacency& graph_;
+  std::span<const std::int32_t> order_;
+  std::span<const std::int32_t> place_;
+  std::span<const std::int32_t> parent_;
+  std::vector<Group> groups_;
+  std::vector<std::int32_t> group_of_;  ///< of each node
+  std::vector<std::int32_t> stamp_;     ///< of each node; the column that last had it as a row
+  std::vector<std::int32_t> child_;     ///< of each node; the groups that hang below it, as linked lists; -1 ends them
+  std::vector<std::int32_t> sibling_;   ///< of each group
+  std::vector<std::int32_t> rows_;      ///< of the column at hand
+};
 
 /// Is one front with some empty blocks cheaper than two? (Ashcraft and Grimes 1989.) Tiny fronts cost their call.
 bool is_worth_merging(const Group& child, const Group& parent, std::int64_t zeros) {
@@ -254,7 +275,7 @@ Supernodes find_supernodes(const Adjacency& graph, std::span<const std::int32_t>
     parent[k] = tree[post[k]] < 0 ? -1 : renumbered[tree[post[k]]];
   }
   place = inverse_of(refined);
-  std::vector<Group> groups = fundamental_groups(graph, refined, place, parent);
+  std::vector<Group> groups = FundamentalGroups(graph, refined, place, parent).run();
   merge_groups(groups);
   return lay_out(groups, refined);
 }

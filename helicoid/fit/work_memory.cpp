@@ -1,6 +1,9 @@
 #include "helicoid/fit/work_memory.hpp"
 
 #include <sys/mman.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include <cstdlib>
 #include <new>
@@ -23,6 +26,12 @@ WorkMemory::WorkMemory(std::size_t size) : size_(size) {
 #if defined(MADV_HUGEPAGE)
   // A wish: where it is not granted nothing but time is lost.
   if (alignment == kLargePage) madvise(memory_.get(), whole, MADV_HUGEPAGE);
+#endif
+}
+
+void release_free_memory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
 #endif
 }
 

@@ -24,4 +24,7 @@ class WorkMemory {
   std::size_t size_ = 0;
 };
 
+/// Gives what was freed back to the system, where the C library can.
+void release_free_memory();
+
 }  // namespace helicoid
