@@ -77,7 +77,7 @@ Result<Judged> judge(const GraphFile& file, const BenchOptions& options, int rep
   return best;
 }
 
-Result<BenchRow> measure(const std::string& name, GraphFile file, const BenchOptions& options, int repeats) {
+Result<BenchRow> measure(const std::string& name, const GraphFile& file, const BenchOptions& options, int repeats) {
   FitResult fitted;
   FitTimes best;
   best.total_s = 1e300;
@@ -104,7 +104,7 @@ Result<BenchRow> measure_recorded(const std::string& name, const BenchOptions& o
   Result<GraphFile> file = read_graph(options.data + "/posegraphs/" + name + ".g2o.gz");
   if (!file) return tl::unexpected(file.error());
   file->graph.poses = odometry_start(file->graph, file->is_placed);
-  return measure("fit " + name, std::move(*file), options, options.repeats);
+  return measure("fit " + name, *file, options, options.repeats);
 }
 
 /// Beside the bar of issue 3, since Ceres needs more memory than many machines have.

@@ -143,6 +143,7 @@ TEST(LocalBound, OfASubGraphIsNeverSmallerThanThatOfTheWhole) {
     const auto bounded = tree_bound(information, graph.poses, 0, without_floor(3, 3));
     if (bounded.size() < 2) continue;
     std::vector<std::uint32_t> poses;
+    poses.reserve(bounded.size());
     for (const BoundedPose& b : bounded) poses.push_back(b.pose);
     const ExactCovariance exact(graph, 0);
     const auto sub = subgraph_covariance(information, graph.poses, poses);
