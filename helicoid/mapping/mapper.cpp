@@ -129,7 +129,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
     add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
   }
   relate_to_last(robot, id);
-  if (options.closures) look_for_loops(id, robot.local);
+  if (options.closures && options.look_alikes) look_for_loops(id, robot.local);
   // Eq. 15.
   robot.pose = {id, Pose2{}};
   robot.covariance.setZero();
@@ -200,7 +200,7 @@ void Mapper::finish() {
   s.counts.sightings_left = s.sightings.left();
   if (s.patches_at_last_fit == s.map.patch_count()) return;
   s.patches_at_last_fit = s.map.patch_count();
-  if (s.options.closures) s.look_for_loops_again();
+  if (s.options.closures && s.options.look_alikes) s.look_for_loops_again();
   const double began = thread_seconds();
   fit_islands(s.map, s.editor);
   s.graph = information_graph(s.map);

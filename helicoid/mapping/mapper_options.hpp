@@ -31,6 +31,8 @@ struct MapperOptions {
   double good_inlier_share = 0.55;
   /// Loops are closed when the evidence is in.
   bool closures = true;
+  /// False: as in the paper (IV-B) only a sighting sets loop closing off; until then no place is compared with another.
+  bool look_alikes = true;
   /// Islands are joined by what they have in common, not by sightings alone.
   bool join_on_evidence = false;
 };
