@@ -84,7 +84,7 @@ std::string target_of(const Include& include, const std::string& path) {
   static const std::vector<std::string> kTools = {"gtest/",    "gmock/",    "rapidcheck", "benchmark/",
                                                   "nlohmann/", "sqlite3.h", "ceres/"};
   if (is_beside(path) && starts_with_any(include.header, kTools)) return "";
-  static const std::vector<std::string> kSystem = {"fcntl.h", "unistd.h", "sys/", "immintrin.h"};
+  static const std::vector<std::string> kSystem = {"fcntl.h", "malloc.h", "unistd.h", "sys/", "immintrin.h"};
   return path.ends_with(".cpp") && starts_with_any(include.header, kSystem) ? "" : "?";
 }
 
