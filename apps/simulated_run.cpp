@@ -5,6 +5,12 @@
 
 namespace helicoid {
 
+namespace {
+
+constexpr std::size_t kScansInMost = std::size_t{1} << 16U;
+
+}  // namespace
+
 Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions& simulation,
                                     const MapperOptions& mapper, const SimulationObserver& observer) {
   Result<Simulator> simulator = Simulator::make(world, simulation);
@@ -14,7 +20,10 @@ Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions&
   SimulatedRun run{Mapper(mapper), {}, 0};
   for (std::size_t i = 0; i < static_cast<std::size_t>(simulation.robots); ++i) {
     run.mapper.add_robot(simulated_robot_name(i), {*laser});
-    run.tracks.push_back({simulated_robot_name(i), {}, {}});
+    TrueTrack& track = run.tracks.emplace_back(TrueTrack{simulated_robot_name(i), {}, {}});
+    // Room is taken at once: what a growing list leaves behind would be counted as the map's memory.
+    track.stamps.reserve(kScansInMost);
+    track.T_world_robot.reserve(kScansInMost);
   }
   while (const std::optional<SimulatedEvent> simulated = simulator->next()) {
     const double before = thread_cpu_seconds();

@@ -69,50 +69,71 @@ Matrix3d Trajectory::covariance_of(const Place& place) {
   return deviations.asDiagonal() * covariance * deviations.asDiagonal();
 }
 
-void Trajectory::push_back(const TrackedScan& scan) {
-  constexpr double kLongest = 4e9;
-  const double since = stretches_.empty() ? -1 : 1e6 * (scan.stamp - stretches_.back().stamp);
-  // Stamps may step back.
-  const bool goes_on = since >= 0 && since < kLongest && stretches_.back().patch == scan.pose.patch &&
-                       stretches_.back().T_island_patch == scan.T_island_patch_online;
-  if (!goes_on) stretches_.push_back({places_.size(), scan.stamp, scan.pose.patch, scan.T_island_patch_online});
-  const Pose2& T = scan.pose.T_patch_robot;
-  Place place{};
-  place.x = static_cast<float>(T.x);
-  place.y = static_cast<float>(T.y);
-  place.microseconds = goes_on ? static_cast<std::uint32_t>(std::llround(since)) : 0;
-  place.yaw = static_cast<std::uint16_t>(std::llround(wrap_angle(T.yaw) * kHeadings));
-  put_covariance(place, scan.covariance);
-  places_.push_back(place);
+std::uint32_t Trajectory::ground_of(const TrackedScan& scan) {
+  const std::size_t patch = scan.pose.patch.index();
+  if (patch >= latest_ground_.size()) latest_ground_.resize(patch + 1, 0);
+  std::uint32_t& latest = latest_ground_[patch];
+  if (latest == 0 || grounds_[latest - 1].T_island_patch != scan.T_island_patch_online) {
+    grounds_.push_back({scan.pose.patch, scan.T_island_patch_online});
+    latest = static_cast<std::uint32_t>(grounds_.size());
+  }
+  return latest - 1;
 }
 
-TrackedScan Trajectory::read(const Stretch& stretch, const Place& place) const {
+void Trajectory::push_back(const TrackedScan& scan) {
+  constexpr double kLongest = 4e9;
+  double since = clocks_.empty() ? -1 : 1e6 * (scan.stamp - clocks_.back());
+  // Stamps may step back.
+  if (!(since >= 0 && since < kLongest)) {
+    clocks_.push_back(scan.stamp);
+    since = 0;
+  }
+  const std::uint32_t ground = ground_of(scan);
+  const auto clock = static_cast<std::uint32_t>(clocks_.size() - 1);
+  if (stretches_.empty() || stretches_.back().ground != ground || stretches_.back().clock != clock) {
+    stretches_.push_back({static_cast<std::uint32_t>(size_), ground, clock});
+  }
+  if (size_++ % kBlock == 0) blocks_.emplace_back().reserve(kBlock);
+  const Pose2& T = scan.pose.T_patch_robot;
+  Place& place = blocks_.back().emplace_back();
+  place.x = static_cast<float>(T.x);
+  place.y = static_cast<float>(T.y);
+  place.microseconds = static_cast<std::uint32_t>(std::llround(since));
+  place.yaw = static_cast<std::uint16_t>(std::llround(wrap_angle(T.yaw) * kHeadings));
+  put_covariance(place, scan.covariance);
+}
+
+TrackedScan Trajectory::read(std::size_t stretch, std::size_t i) const {
+  const Stretch& on = stretches_[stretch];
+  const Ground& ground = grounds_[on.ground];
+  const Place& place = blocks_[i / kBlock][i % kBlock];
   const auto yaw = static_cast<std::int16_t>(place.yaw);
-  return {stretch.stamp + 1e-6 * place.microseconds,
-          {stretch.patch, {place.x, place.y, yaw / kHeadings}},
-          stretch.T_island_patch,
+  return {clocks_[on.clock] + 1e-6 * place.microseconds,
+          {ground.patch, {place.x, place.y, yaw / kHeadings}},
+          ground.T_island_patch,
           covariance_of(place)};
 }
 
 TrackedScan Trajectory::operator[](std::size_t i) const {
   const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), i,
                                       [](std::size_t at, const Stretch& stretch) { return at < stretch.first; });
-  return read(*(after - 1), places_[i]);
+  return read(static_cast<std::size_t>(after - stretches_.begin()) - 1, i);
 }
 
 TrackedScan Trajectory::Iterator::operator*() const {
-  return trajectory_->read(trajectory_->stretches_[stretch_], trajectory_->places_[at_]);
+  return trajectory_->read(stretch_, at_);
 }
 
 Trajectory::Iterator& Trajectory::Iterator::operator++() {
   ++at_;
-  const std::vector<Stretch>& stretches = trajectory_->stretches_;
+  const std::deque<Stretch>& stretches = trajectory_->stretches_;
   if (stretch_ + 1 < stretches.size() && stretches[stretch_ + 1].first == at_) ++stretch_;
   return *this;
 }
 
 std::size_t Trajectory::bytes() const {
-  return stretches_.capacity() * sizeof(Stretch) + places_.size() * sizeof(Place);
+  return size_ * sizeof(Place) + stretches_.size() * sizeof(Stretch) + grounds_.capacity() * sizeof(Ground) +
+         latest_ground_.capacity() * sizeof(std::uint32_t) + clocks_.capacity() * sizeof(double);
 }
 
 }  // namespace helicoid

@@ -55,8 +55,8 @@ class Trajectory {
   };
 
   void push_back(const TrackedScan& scan);
-  [[nodiscard]] std::size_t size() const { return places_.size(); }
-  [[nodiscard]] bool empty() const { return places_.empty(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] TrackedScan operator[](std::size_t i) const;
   [[nodiscard]] TrackedScan front() const { return (*this)[0]; }
   [[nodiscard]] TrackedScan back() const { return (*this)[size() - 1]; }
@@ -66,27 +66,38 @@ class Trajectory {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// Scans in a row on one patch whose pose did not change meanwhile.
-  struct Stretch {
-    std::size_t first = 0;
-    double stamp = 0;  ///< of the first
+  /// Where a patch was projected for a time.
+  struct Ground {
     PatchId patch;
     Pose2 T_island_patch;
   };
+  /// Scans in a row on one ground.
+  struct Stretch {
+    std::uint32_t first = 0;
+    std::uint32_t ground = 0;
+    std::uint32_t clock = 0;
+  };
   struct Place {
     float x, y;                               ///< of T_patch_robot
-    std::uint32_t microseconds;               ///< since the stretch began
+    std::uint32_t microseconds;               ///< since the stretch's clock
     std::uint16_t yaw;                        ///< of T_patch_robot, in 65536ths of a turn
     std::array<std::uint8_t, 3> deviations;   ///< of x, y and yaw: steps of a logarithmic scale
     std::array<std::int8_t, 3> correlations;  ///< of (x, y), (x, yaw), (y, yaw): 127ths
   };
 
-  [[nodiscard]] TrackedScan read(const Stretch& stretch, const Place& place) const;
+  static constexpr std::size_t kBlock = 1024;
+
+  [[nodiscard]] TrackedScan read(std::size_t stretch, std::size_t i) const;
+  std::uint32_t ground_of(const TrackedScan& scan);
   static void put_covariance(Place& place, const Matrix3d& covariance);
   static Matrix3d covariance_of(const Place& place);
 
-  std::vector<Stretch> stretches_;
-  std::deque<Place> places_;
+  std::size_t size_ = 0;
+  std::vector<std::vector<Place>> blocks_;  ///< of kBlock scans: one list would hold room for twice as many
+  std::deque<Stretch> stretches_;
+  std::vector<Ground> grounds_;
+  std::vector<std::uint32_t> latest_ground_;  ///< by patch: its newest in grounds_, one more; 0: none
+  std::vector<double> clocks_;                ///< stamps from which microseconds are counted
 };
 
 }  // namespace helicoid

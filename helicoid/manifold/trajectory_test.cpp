@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <vector>
 
 #include "helicoid/base/random.hpp"
 
