@@ -1,6 +1,7 @@
 #include "helicoid/manifold/trajectory.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -70,6 +71,7 @@ Matrix3d Trajectory::covariance_of(const Place& place) {
 }
 
 std::uint32_t Trajectory::ground_of(const TrackedScan& scan) {
+  assert(scan.pose.patch.valid());
   const std::size_t patch = scan.pose.patch.index();
   if (patch >= latest_ground_.size()) latest_ground_.resize(patch + 1, 0);
   std::uint32_t& latest = latest_ground_[patch];

@@ -54,6 +54,7 @@ class Trajectory {
     std::size_t stretch_ = 0;
   };
 
+  /// The scan stands on a patch of the map.
   void push_back(const TrackedScan& scan);
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }

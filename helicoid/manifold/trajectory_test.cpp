@@ -28,6 +28,7 @@ std::vector<TrackedScan> random_scans(std::uint64_t seed, int count) {
   Random random(seed);
   std::vector<TrackedScan> scans;
   TrackedScan scan;
+  scan.pose.patch = PatchId{0};
   scan.stamp = 976052857.355;
   for (int i = 0; i < count; ++i) {
     if (random.below(5) == 0) scan.pose.patch = PatchId{static_cast<std::uint32_t>(random.below(30))};
@@ -103,6 +104,7 @@ TEST(Trajectory, WhatWasReadAppendsToTheSameBits) {
 TEST(Trajectory, GrowsByTwentyBytesAScanOnOnePatch) {
   Trajectory trajectory;
   TrackedScan scan;
+  scan.pose.patch = PatchId{0};
   for (int i = 0; i < 1000; ++i) {
     scan.stamp += 0.1;
     trajectory.push_back(scan);
