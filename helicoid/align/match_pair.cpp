@@ -6,7 +6,7 @@
 
 #include "helicoid/align/nearest_on_side.hpp"
 #include "helicoid/base/wide_lanes.hpp"
-#include "helicoid/geometry/approximate_angle.hpp"
+#include "helicoid/sensor/beam_finder.hpp"
 
 namespace helicoid {
 
@@ -16,8 +16,7 @@ namespace {
 class BeamWindow {
  public:
   BeamWindow(const LaserModel& laser, const ScanPoints& points, double gate)
-      : first_bearing_(static_cast<float>(laser.first_bearing)),
-        half_view_(static_cast<float>(0.5 * laser.field_of_view())),
+      : beam_(laser),
         per_step_(static_cast<float>(1 / laser.bearing_step)),
         gate_(static_cast<float>(gate)),
         beams_(laser.beams) {
@@ -34,8 +33,7 @@ class BeamWindow {
   [[nodiscard]] Range at(float x, float y) const {
     const float range = std::sqrt(x * x + y * y);
     if (range <= 2 * gate_) return {first_.front(), first_.back()};
-    const float offset = approximate_atan2(y, x) - first_bearing_ - half_view_;
-    const float beam = (approximate_wrap(offset) + half_view_) * per_step_;
+    const float beam = beam_.at(x, y);
     const float window = gate_ / range * per_step_ + 1.5F;
     const int low = std::max(0, static_cast<int>(beam - window));
     const int high = std::min(beams_, static_cast<int>(beam + window) + 1);
@@ -44,7 +42,8 @@ class BeamWindow {
   }
 
  private:
-  float first_bearing_, half_view_, per_step_, gate_;
+  BeamFinder beam_;
+  float per_step_, gate_;
   int beams_;
   std::vector<std::uint16_t> first_;
 };

@@ -5,8 +5,8 @@
 #include <bit>
 #include <cmath>
 
-#include "helicoid/geometry/approximate_angle.hpp"
 #include "helicoid/manifold/confidence.hpp"
+#include "helicoid/sensor/beam_finder.hpp"
 
 namespace helicoid {
 
@@ -57,10 +57,7 @@ std::uint32_t seen_by(const Patch& patch, const Pose2& T_anchor_patch, const Sur
   const Pose2 T_anchor_laser = T_anchor_patch * patch.scan.T_robot_laser;
   const Eigen::Vector2f at = T_anchor_laser.translation().cast<float>();
   const Eigen::Matrix2f turn = T_anchor_laser.rotation().transpose().cast<float>();
-  const LaserModel& laser = patch.laser;
-  const auto half_view = static_cast<float>(0.5 * laser.field_of_view());
-  const float middle = static_cast<float>(laser.first_bearing) + half_view;
-  const auto per_step = static_cast<float>(1 / laser.bearing_step);
+  const BeamFinder finder(patch.laser);
   std::uint32_t seen = 0;
   for (std::size_t i = 0; i < surfaces.size; ++i) {
     const float dx = surfaces.x[i] - at.x();
@@ -68,9 +65,8 @@ std::uint32_t seen_by(const Patch& patch, const Pose2& T_anchor_patch, const Sur
     const float distance = std::sqrt(dx * dx + dy * dy);
     const float facing = -(surfaces.nx[i] * dx + surfaces.ny[i] * dy);
     if (facing < kLeastFacing * distance) continue;
-    const float bearing =
-        approximate_atan2(turn(1, 0) * dx + turn(1, 1) * dy, turn(0, 0) * dx + turn(0, 1) * dy) - middle;
-    const auto beam = static_cast<int>(std::floor((approximate_wrap(bearing) + half_view) * per_step + 0.5F));
+    const float at_beam = finder.at(turn(0, 0) * dx + turn(0, 1) * dy, turn(1, 0) * dx + turn(1, 1) * dy);
+    const auto beam = static_cast<int>(std::floor(at_beam + 0.5F));
     if (beam < 0 || beam >= static_cast<int>(patch.scan.ranges.size())) continue;
     const float range = patch.scan.ranges[static_cast<std::size_t>(beam)];
     if (std::abs(range - distance) < kRangeTolerance + kRangeShare * distance) seen |= 1U << i;
