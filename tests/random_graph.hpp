@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <span>
 #include <vector>
 
 #include "helicoid/base/random.hpp"
-#include "helicoid/fit/relation_graph.hpp"
+#include "helicoid/fit/fit_graph.hpp"
 
 namespace helicoid {
 
@@ -48,6 +49,18 @@ inline RelationGraph random_graph(std::uint64_t seed, std::uint32_t poses, std::
   graph.poses[0] = truth[0];
   return graph;
 }
+
+/// A graph of pair forms, relation by relation, measured without noise.
+struct FormGraph {
+  std::vector<Pose2> poses;
+  std::deque<PairForm> forms;
+  std::vector<GraphEdge> edges;
+
+  void relate(std::uint32_t a, std::uint32_t b, const Matrix3d& information, double scale = 1) {
+    forms.push_back(pose_pose_form(poses[a].inverse() * poses[b], information));
+    edges.push_back({a, b, &forms.back(), scale});
+  }
+};
 
 /// The largest of all differences of coordinates, in metres and radians, pose by pose.
 inline double largest_difference(std::span<const Pose2> a, std::span<const Pose2> b) {

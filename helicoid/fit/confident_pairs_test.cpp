@@ -2,38 +2,29 @@
 
 #include <gtest/gtest.h>
 
-#include <deque>
-
-#include "helicoid/base/random.hpp"
 #include "helicoid/fit/half_solves.hpp"
+#include "tests/random_graph.hpp"
 
 namespace helicoid {
 namespace {
 
 /// A robot's way with some loops closed: a connected graph of relations of all strengths.
-struct Way {
-  std::vector<Pose2> poses;
-  std::deque<PairForm> forms;
-  std::vector<GraphEdge> edges;
-
-  Way(Random& random, std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      poses.push_back(i == 0 ? Pose2{} : poses.back() * Pose2{0.7, 0.1 * random.normal(), 0.4 * random.normal()});
-      if (i > 0) relate(random, i - 1, i);
-    }
-    for (std::uint32_t k = 0; k < count / 3; ++k) {
-      const auto a = static_cast<std::uint32_t>(random.below(count - 1));
-      relate(random, a, a + 1 + static_cast<std::uint32_t>(random.below(count - 1 - a)));
-    }
-  }
-
-  void relate(Random& random, std::uint32_t a, std::uint32_t b) {
+FormGraph random_way(Random& random, std::uint32_t count) {
+  FormGraph way;
+  const auto relate = [&](std::uint32_t a, std::uint32_t b) {
     const double sigma = random.uniform(0.01, 0.06);
-    const Matrix3d information = Vector3d(1, random.uniform(0.2, 2), 8).asDiagonal() * (1 / (sigma * sigma));
-    forms.push_back(pose_pose_form(poses[a].inverse() * poses[b], information));
-    edges.push_back({a, b, &forms.back(), 1});
+    way.relate(a, b, Vector3d(1, random.uniform(0.2, 2), 8).asDiagonal() * (1 / (sigma * sigma)));
+  };
+  for (std::uint32_t i = 0; i < count; ++i) {
+    way.poses.push_back(i == 0 ? Pose2{} : way.poses.back() * Pose2{0.7, 0.1 * random.normal(), 0.4 * random.normal()});
+    if (i > 0) relate(i - 1, i);
   }
-};
+  for (std::uint32_t k = 0; k < count / 3; ++k) {
+    const auto a = static_cast<std::uint32_t>(random.below(count - 1));
+    relate(a, a + 1 + static_cast<std::uint32_t>(random.below(count - 1 - a)));
+  }
+  return way;
+}
 
 std::vector<PosePair> all_pairs(std::size_t count) {
   std::vector<PosePair> pairs;
@@ -46,7 +37,7 @@ std::vector<PosePair> all_pairs(std::size_t count) {
 TEST(HalfSolves, AnswerAsASolveForEachPairDoes) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
-    const Way way(random, 3 + static_cast<std::uint32_t>(random.below(60)));
+    const FormGraph way = random_way(random, 3 + static_cast<std::uint32_t>(random.below(60)));
     const RelativeCovariance covariance(way.poses, way.edges);
     ASSERT_TRUE(covariance.is_determined());
     HalfSolves kept(covariance.system());
@@ -64,7 +55,7 @@ TEST(ConfidentPairs, AreThoseWhoseExactIntervalKeepsToTheLimits) {
   std::size_t doubtful = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Random random(seed);
-    const Way way(random, 2 + static_cast<std::uint32_t>(random.below(80)));
+    const FormGraph way = random_way(random, 2 + static_cast<std::uint32_t>(random.below(80)));
     const RelativeCovariance covariance(way.poses, way.edges);
     const std::vector<PosePair> pairs = all_pairs(way.poses.size());
     std::vector<PosePair> expected;

@@ -3,40 +3,33 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <deque>
 
-#include "helicoid/base/random.hpp"
+#include "tests/random_graph.hpp"
 
 namespace helicoid {
 namespace {
 
+/// A relation of any strength.
+void relate(FormGraph& graph, Random& random, std::uint32_t a, std::uint32_t b) {
+  Matrix3d A;
+  for (double& x : A.reshaped()) x = random.normal();
+  const Matrix3d information = 100 * (A * A.transpose() + 0.05 * Matrix3d::Identity());
+  graph.relate(a, b, information, random.uniform(0.1, 1));
+}
+
 /// A connected graph of pose-pose relations with random poses, topology and information.
-struct Graph {
-  std::vector<Pose2> poses;
-  std::deque<PairForm> forms;
-  std::vector<GraphEdge> edges;
-
-  void relate(Random& random, std::uint32_t a, std::uint32_t b) {
-    Matrix3d A;
-    for (double& x : A.reshaped()) x = random.normal();
-    const Matrix3d information = 100 * (A * A.transpose() + 0.05 * Matrix3d::Identity());
-    forms.push_back(pose_pose_form(poses[a].inverse() * poses[b], information));
-    edges.push_back({a, b, &forms.back(), random.uniform(0.1, 1)});
-  }
-};
-
-Graph random_graph(std::uint64_t seed) {
+FormGraph random_forms(std::uint64_t seed) {
   Random random(seed);
-  Graph graph;
+  FormGraph graph;
   const auto count = static_cast<std::uint32_t>(2 + random.below(30));
   for (std::uint32_t i = 0; i < count; ++i) {
     graph.poses.push_back({random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-3.14, 3.14)});
-    if (i > 0) graph.relate(random, static_cast<std::uint32_t>(random.below(i)), i);
+    if (i > 0) relate(graph, random, static_cast<std::uint32_t>(random.below(i)), i);
   }
   for (std::uint32_t k = 0; k < count; ++k) {
     const auto a = static_cast<std::uint32_t>(random.below(count));
     const auto b = static_cast<std::uint32_t>(random.below(count));
-    if (a != b) graph.relate(random, a, b);
+    if (a != b) relate(graph, random, a, b);
   }
   return graph;
 }
@@ -52,7 +45,7 @@ Jacobians plane_jacobians(const Pose2& T_plane_a, const Pose2& T_plane_b) {
 }
 
 /// By the dense inverse of the information about all plane poses but the one that is held.
-Matrix3d dense_covariance(const Graph& graph, std::uint32_t held, std::uint32_t a, std::uint32_t b) {
+Matrix3d dense_covariance(const FormGraph& graph, std::uint32_t held, std::uint32_t a, std::uint32_t b) {
   const auto size = static_cast<Eigen::Index>(3 * graph.poses.size());
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, size);
   const auto jacobian = [&](std::uint32_t i, std::uint32_t j) {
@@ -79,7 +72,7 @@ Matrix3d dense_covariance(const Graph& graph, std::uint32_t held, std::uint32_t 
 TEST(RelativeCovariance, EqualsTheDenseInverseWhicheverPoseIsHeld) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Graph graph = random_graph(seed);
+    const FormGraph graph = random_forms(seed);
     const RelativeCovariance covariance(graph.poses, graph.edges);
     ASSERT_TRUE(covariance.is_determined());
     Random random(seed);
@@ -96,7 +89,7 @@ TEST(RelativeCovariance, EqualsTheDenseInverseWhicheverPoseIsHeld) {
 
 TEST(RelativeCovariance, DoesNotTurnWithThePlane) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    Graph graph = random_graph(seed);
+    FormGraph graph = random_forms(seed);
     const RelativeCovariance before(graph.poses, graph.edges);
     for (Pose2& pose : graph.poses) pose = Pose2{30, -20, 2.5} * pose;
     const RelativeCovariance after(graph.poses, graph.edges);
@@ -108,7 +101,7 @@ TEST(RelativeCovariance, DoesNotTurnWithThePlane) {
 
 TEST(RelativeCovariance, OfBRelativeToAIsTheInversionOfAsRelativeToB) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Graph graph = random_graph(seed);
+    const FormGraph graph = random_forms(seed);
     const RelativeCovariance covariance(graph.poses, graph.edges);
     const auto last = static_cast<std::uint32_t>(graph.poses.size() - 1);
     EXPECT_TRUE(invert(covariance.of(0, last)).covariance.isApprox(covariance.of(last, 0).covariance, 1e-8));
