@@ -2,6 +2,7 @@
 
 #include "apps/map_run.hpp"
 #include "helicoid/io/laser_file.hpp"
+#include "helicoid/manifold/sheets.hpp"
 
 namespace helicoid {
 
@@ -12,7 +13,8 @@ constexpr std::size_t kScansInMost = std::size_t{1} << 16U;
 }  // namespace
 
 Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions& simulation,
-                                    const MapperOptions& mapper, const SimulationObserver& observer) {
+                                    const MapperOptions& mapper, const SimulationObserver& observer,
+                                    const SimulationFilter& filter) {
   Result<Simulator> simulator = Simulator::make(world, simulation);
   if (!simulator) return tl::unexpected(simulator.error());
   const Result<LaserModel> laser = load_laser("sick-lms200", simulator->laser());
@@ -26,6 +28,7 @@ Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions&
     track.T_world_robot.reserve(kScansInMost);
   }
   while (const std::optional<SimulatedEvent> simulated = simulator->next()) {
+    if (filter && !filter(*simulated, run.mapper)) continue;
     const double before = thread_cpu_seconds();
     const Step step = run.mapper.process(simulated->event);
     run.cpu_s += thread_cpu_seconds() - before;
@@ -40,6 +43,13 @@ Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions&
   run.mapper.finish();
   run.cpu_s += thread_cpu_seconds() - before;
   return run;
+}
+
+std::vector<int> count_sheets(const Map& map) {
+  const Neighbours neighbours = find_neighbours(map);
+  std::vector<int> sheets;
+  for (const Island& island : map.islands()) sheets.push_back(count_sheets(map, neighbours, island));
+  return sheets;
 }
 
 std::vector<EvaluatedRelation> true_relations(std::span<const TrueTrack> tracks, std::uint64_t seed) {

@@ -26,11 +26,18 @@ struct SimulatedRun {
 /// Told of every event after the mapper's step.
 using SimulationObserver = std::function<void(const SimulatedEvent&, const Step&, const Mapper&)>;
 
+/// Asked of every event before the mapper's step: what it refuses the mapper is not told.
+using SimulationFilter = std::function<bool(const SimulatedEvent&, const Mapper&)>;
+
 /// Simulates and maps, with the laser's model from its data sheet, as for a log; finish() included. Error: a world
 /// without a route.
 [[nodiscard]] Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions& simulation,
                                                   const MapperOptions& mapper = {},
-                                                  const SimulationObserver& observer = {});
+                                                  const SimulationObserver& observer = {},
+                                                  const SimulationFilter& filter = {});
+
+/// How many sheets each island has, by id.
+[[nodiscard]] std::vector<int> count_sheets(const Map& map);
 
 /// The truth of the pairs of choose_true_relations.
 [[nodiscard]] std::vector<EvaluatedRelation> true_relations(std::span<const TrueTrack> tracks, std::uint64_t seed);

@@ -5,7 +5,6 @@
 #include "apps/experiments/list.hpp"
 #include "apps/map_run.hpp"
 #include "apps/simulated_run.hpp"
-#include "helicoid/io/laser_file.hpp"
 #include "helicoid/manifold/sheets.hpp"
 
 namespace helicoid {
@@ -29,20 +28,18 @@ struct Spirals {
 };
 
 int most_sheets(const Map& map) {
-  const Neighbours neighbours = find_neighbours(map);
-  int most = 0;
-  for (const Island& island : map.islands()) most = std::max(most, count_sheets(map, neighbours, island));
-  return most;
+  const std::vector<int> sheets = count_sheets(map);
+  return *std::max_element(sheets.begin(), sheets.end());
 }
 
 int least_sheets(const Map& map) {
-  const Neighbours neighbours = find_neighbours(map);
-  int least = 1 << 20;
-  for (const Island& island : map.islands()) least = std::min(least, count_sheets(map, neighbours, island));
-  return least;
+  const std::vector<int> sheets = count_sheets(map);
+  return *std::min_element(sheets.begin(), sheets.end());
 }
 
-Result<Simulator> make_simulator(const std::string& world_name, int robots, int laps, std::uint64_t seed) {
+/// Robots drive their laps; of their sightings only the first after the given number of laps of each is heard.
+Result<Spirals> drive(const std::string& world_name, int robots, int laps, int heard_after, std::uint64_t seed,
+                      const MapperOptions& mapper) {
   const Result<World> world = load_world(world_name);
   if (!world) return tl::unexpected(world.error());
   SimulationOptions options;
@@ -51,46 +48,38 @@ Result<Simulator> make_simulator(const std::string& world_name, int robots, int 
   options.seed = seed;
   options.alternate = true;
   options.sightings = robots > 1;
-  return Simulator::make(*world, options);
-}
-
-/// Robots drive their laps; of their sightings only the first after the given number of laps of each is heard.
-Result<Spirals> drive(Simulator simulator, int robots, int heard_after, const MapperOptions& mapper) {
-  const Result<LaserModel> laser = load_laser("sick-lms200", simulator.laser());
-  if (!laser) return tl::unexpected(laser.error());
   const auto count = static_cast<std::size_t>(robots);
   Spirals s{{Mapper(mapper), {}, 0}, std::vector<std::vector<int>>(count), LapCosts(count), 0, 0};
-  for (std::size_t i = 0; i < count; ++i) {
-    s.run.mapper.add_robot(simulated_robot_name(i), {*laser});
-    s.run.tracks.push_back({simulated_robot_name(i), {}, {}});
-  }
   bool heard = false;
   std::vector<int> lap(count, 0);
-  while (const std::optional<SimulatedEvent> simulated = simulator.next()) {
-    const std::size_t robot = simulated->event.robot.index();
-    lap[robot] = simulated->lap;
-    if (std::holds_alternative<Sighting>(simulated->event.body)) {
-      if (heard || *std::min_element(lap.begin(), lap.end()) < heard_after) continue;
+  std::size_t islands = 0;
+  double before = 0;
+  const auto hears = [&](const SimulatedEvent& simulated, const Mapper& mapping) {
+    lap[simulated.event.robot.index()] = simulated.lap;
+    if (std::holds_alternative<Sighting>(simulated.event.body)) {
+      if (heard || *std::min_element(lap.begin(), lap.end()) < heard_after) return false;
       heard = true;
-      s.least_sheets_before = least_sheets(s.run.map());
+      s.least_sheets_before = least_sheets(mapping.map());
     }
-    if (std::holds_alternative<Scan>(simulated->event.body)) {
-      s.run.tracks[robot].stamps.push_back(simulated->event.stamp);
-      s.run.tracks[robot].T_world_robot.push_back(simulated->T_world_robot);
-      s.lap_of_scan[robot].push_back(simulated->lap);
-    }
-    const std::size_t islands = s.run.map().islands().size();
-    const double before = thread_cpu_seconds();
-    s.run.mapper.process(simulated->event);
+    islands = mapping.map().islands().size();
+    before = thread_cpu_seconds();
+    return true;
+  };
+  const auto observe = [&](const SimulatedEvent& simulated, const Step&, const Mapper& mapping) {
     const double cpu_s = thread_cpu_seconds() - before;
-    if (s.run.map().islands().size() < islands) {
+    const std::size_t robot = simulated.event.robot.index();
+    if (std::holds_alternative<Scan>(simulated.event.body)) s.lap_of_scan[robot].push_back(simulated.lap);
+    if (mapping.map().islands().size() < islands) {
       s.collapse_cpu_s += cpu_s;
-      continue;
+      return;
     }
-    s.lap_cpu_s[robot].resize(std::max(s.lap_cpu_s[robot].size(), static_cast<std::size_t>(simulated->lap) + 1));
-    s.lap_cpu_s[robot][static_cast<std::size_t>(simulated->lap)] += cpu_s;
-  }
-  s.run.mapper.finish();
+    std::vector<double>& costs = s.lap_cpu_s[robot];
+    costs.resize(std::max(costs.size(), static_cast<std::size_t>(simulated.lap) + 1));
+    costs[static_cast<std::size_t>(simulated.lap)] += cpu_s;
+  };
+  Result<SimulatedRun> run = map_simulation(*world, options, mapper, observe, hears);
+  if (!run) return tl::unexpected(run.error());
+  s.run = std::move(*run);
   return s;
 }
 
@@ -138,9 +127,7 @@ double walls_rms(const Spirals& s) {
 Result<Outcome> collapse(const std::string& world, std::uint64_t seed) {
   MapperOptions mapper;
   mapper.look_alikes = false;
-  Result<Simulator> simulator = make_simulator(world, 2, kTurns + 1, seed);
-  if (!simulator) return tl::unexpected(simulator.error());
-  const Result<Spirals> s = drive(std::move(*simulator), 2, kTurns, mapper);
+  const Result<Spirals> s = drive(world, 2, kTurns + 1, kTurns, seed, mapper);
   if (!s) return tl::unexpected(s.error());
   const Map& map = s->run.map();
   double first = 0;
@@ -161,9 +148,7 @@ Result<Outcome> collapse(const std::string& world, std::uint64_t seed) {
 }
 
 Result<Outcome> close_every_lap(const std::string& world, std::uint64_t seed) {
-  Result<Simulator> simulator = make_simulator(world, 1, kLaps, seed);
-  if (!simulator) return tl::unexpected(simulator.error());
-  const Result<Spirals> s = drive(std::move(*simulator), 1, 0, {});
+  const Result<Spirals> s = drive(world, 1, kLaps, 0, seed, {});
   if (!s) return tl::unexpected(s.error());
   const Map& map = s->run.map();
   std::vector<double> patches(kLaps, 0);
