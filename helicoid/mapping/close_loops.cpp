@@ -7,58 +7,17 @@
 
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/fit_islands.hpp"
-#include "helicoid/mapping/relate.hpp"
 
 namespace helicoid {
 
 namespace {
-
-/// Along a robot's way; patches nearer than this are one stretch, metres.
-constexpr double kStretch = 4;
-constexpr int kMinCorrespondences = 40;
-/// Patches that are to be related lie this near, metres.
-constexpr double kNear = 3;
-
-RelateOptions relate_options(const Patch& patch) {
-  RelateOptions options;
-  options.kappa = patch.laser.kappa;
-  options.match.incidence_bias = patch.laser.incidence_bias;
-  options.min_correspondences = kMinCorrespondences;
-  return options;
-}
-
-/// True if some relation of the patch already leads to q's stretch of way.
-bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along) {
-  const auto near = [&](PatchId other) {
-    return map.patch(other).robot == map.patch(q).robot && std::abs(along[other.index()] - along[q.index()]) < kStretch;
-  };
-  if (near(patch)) return true;
-  const std::span<const RelationId> relations = map.relations_of(patch);
-  return std::any_of(relations.begin(), relations.end(), [&](RelationId id) {
-    const Relation& r = map.relation(id);
-    return r.kind != RelationKind::odometry && near(r.a == patch ? r.b : r.a);
-  });
-}
-
-/// Relates a patch to the views, all of them older. Those that it was related to.
-std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views,
-                               const PosePrior& prior, RelationKind kind) {
-  const Patch& patch = progress.map.patch(b);
-  std::vector<PatchId> related;
-  const RelatedPatch found = relate(progress.map, views, patch.points, prior, relate_options(patch));
-  for (const NewRelation& r : found.relations) {
-    progress.add({r.patch, b, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
-    related.push_back(r.patch);
-  }
-  return related;
-}
 
 /// True if an older patch lies about b that b is not tied to: without one nothing can be induced.
 bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along) {
   const Vector2d place = map.T_plane_patch(b).translation();
   for (std::size_t i = 0; i < b.index(); ++i) {
     const PatchId id = make_id<PatchId>(i);
-    if ((map.T_plane_patch(id).translation() - place).squaredNorm() > kNear * kNear) continue;
+    if ((map.T_plane_patch(id).translation() - place).squaredNorm() > kTieReach * kTieReach) continue;
     if (map.island_of(id) == map.island_of(b) && !is_tied_to_stretch(map, b, id, along)) return true;
   }
   return false;
@@ -124,12 +83,6 @@ std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> be
 }
 
 }  // namespace
-
-void MapInProgress::add(const Relation& relation) {
-  editor.add_relation(relation);
-  graph.add(relation.a.value, relation.b.value, relation.T_a_b,
-            expand(relation.form, relation.T_a_b).information / information_divisor(map, relation));
-}
 
 void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
             const MapperOptions& options) {

@@ -2,18 +2,10 @@
 // another; those that overlap are related in turn, until nothing new is induced.
 #pragma once
 
-#include "helicoid/manifold/map_editor.hpp"
 #include "helicoid/mapping/loop_closer.hpp"
+#include "helicoid/mapping/map_in_progress.hpp"
 
 namespace helicoid {
-
-/// The map that is being changed and the information of its relations, which must follow.
-struct MapInProgress {
-  const Map& map;
-  MapEditor& editor;
-  InformationGraph& graph;
-  void add(const Relation& relation);
-};
 
 /// Ties what these entries of the ledger say, fits, and relates what has become related until nothing is induced any
 /// more.

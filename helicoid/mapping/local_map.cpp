@@ -189,4 +189,11 @@ std::vector<LocalPatch> select_views(const Map& map, const LocalMap& local, cons
   return views;
 }
 
+std::vector<ReferencePart> reference_parts(const Map& map, std::span<const LocalPatch> views) {
+  std::vector<ReferencePart> parts;
+  parts.reserve(views.size());
+  for (const LocalPatch& view : views) parts.push_back({&map.patch(view.patch).points, view.T_anchor_patch});
+  return parts;
+}
+
 }  // namespace helicoid

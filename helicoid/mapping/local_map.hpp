@@ -44,4 +44,7 @@ using LocalMap = std::vector<LocalPatch>;
 [[nodiscard]] std::vector<LocalPatch> select_views(const Map& map, const LocalMap& local, const ScanPoints& points,
                                                    const Pose2& T_anchor_robot, PatchId last_kept, std::size_t most);
 
+/// What a Reference in the anchor's frame is built from.
+[[nodiscard]] std::vector<ReferencePart> reference_parts(const Map& map, std::span<const LocalPatch> views);
+
 }  // namespace helicoid

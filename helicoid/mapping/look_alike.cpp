@@ -7,6 +7,7 @@
 #include "helicoid/align/align_scan.hpp"
 #include "helicoid/align/place_search.hpp"
 #include "helicoid/manifold/confidence.hpp"
+#include "helicoid/manifold/seen_free.hpp"
 
 namespace helicoid {
 
@@ -14,8 +15,8 @@ namespace {
 
 /// Points of a place at most; more make it slower, not surer.
 constexpr std::size_t kPlacePoints = 700;
-/// A point this far from the edge of free space, in metres and of the range, contradicts it.
-constexpr double kDeep = 0.35;
+/// A point this far within free space contradicts it, metres.
+constexpr float kDeep = 0.35F;
 
 /// b and the patches that its robot kept on the last few metres before it.
 std::vector<PatchId> patches_before(const Map& map, PatchId b, const LookAlikeOptions& options) {
@@ -58,30 +59,25 @@ ScanPoints points_of_place(const Map& map, PatchId b, std::span<const PatchId> p
   return place;
 }
 
-/// True if p_patch lies well within what the patch saw as free.
-bool is_deep_inside(const Patch& patch, const Vector2d& p_patch) {
-  const Vector2d p_laser = patch.scan.T_robot_laser.inverse() * p_patch;
-  const LaserModel& laser = patch.laser;
-  const double middle = laser.first_bearing + 0.5 * laser.field_of_view();
-  const double offset = wrap_angle(std::atan2(p_laser.y(), p_laser.x()) - middle) + 0.5 * laser.field_of_view();
-  const auto beam = std::lround(offset / laser.bearing_step);
-  // The neighbouring beams too: a point behind an edge is not inside.
-  for (long k = beam - 1; k <= beam + 1; ++k) {
-    if (k < 0 || k >= std::ssize(patch.free_ranges)) return false;
-    if (static_cast<double>(patch.free_ranges[static_cast<std::size_t>(k)]) < p_laser.norm() + kDeep) return false;
-  }
-  return true;
-}
-
 /// Share of the points (in b's frame) that lie deep in free space of one of the views.
 double contradicted_share(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
                           const Pose2& T_a_b) {
+  std::vector<SeenFree> seen_free;
+  std::vector<Pose2> T_view_b;
+  seen_free.reserve(views.size());
+  T_view_b.reserve(views.size());
+  for (const LocalPatch& view : views) {
+    seen_free.emplace_back(map.patch(view.patch));
+    T_view_b.push_back(view.T_anchor_patch.inverse() * T_a_b);
+  }
   std::size_t inside = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector2d p_a = T_a_b * Vector2d(points.x[i], points.y[i]);
-    inside += std::any_of(views.begin(), views.end(), [&](const LocalPatch& view) {
-      return is_deep_inside(map.patch(view.patch), view.T_anchor_patch.inverse() * p_a);
-    });
+    const Vector2d p_b(points.x[i], points.y[i]);
+    for (std::size_t k = 0; k < seen_free.size(); ++k) {
+      if (!seen_free[k].is_deep((T_view_b[k] * p_b).cast<float>(), kDeep)) continue;
+      ++inside;
+      break;
+    }
   }
   return points.size() > 0 ? static_cast<double>(inside) / static_cast<double>(points.size()) : 0;
 }
@@ -148,10 +144,8 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
   LocalMap local = find_local_map(map, graph, candidate.a, mapper);
   std::erase_if(local, [&](const LocalPatch& p) { return std::count(place.begin(), place.end(), p.patch) > 0; });
   const std::vector<LocalPatch> views = nearest_views(local, Pose2{}, options.views);
-  std::vector<ReferencePart> parts;
-  for (const LocalPatch& view : views) parts.push_back({&map.patch(view.patch).points, view.T_anchor_patch});
   Reference reference;
-  reference.build(parts);
+  reference.build(reference_parts(map, views));
 
   const LaserModel& laser = map.patch(b).laser;
   AlignOptions align;

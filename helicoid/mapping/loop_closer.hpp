@@ -38,11 +38,11 @@ class LoopCloser {
 
   void record(Hypothesis entry) { ledger_.push_back(std::move(entry)); }
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
-  /// How far along its robot's way each patch was kept, metres.
+  /// How far along its robot's way each patch was kept, metres: up to the last patch that was observed or followed.
   [[nodiscard]] std::span<const double> along() const { return along_; }
+  void follow_ways(const Map& map);
 
  private:
-  void follow_ways(const Map& map);
   /// Enters it; the places of it and of those that agree with it.
   std::vector<std::size_t> enter(const Map& map, const InformationGraph& graph, std::span<const BoundedPose> about_b,
                                  Hypothesis found);

@@ -10,6 +10,7 @@
 #include "helicoid/mapping/mapper_state.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 #include "helicoid/mapping/relate.hpp"
+#include "helicoid/mapping/tie_neighbours.hpp"
 
 namespace helicoid {
 
@@ -29,9 +30,9 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   PosePrior prior = predict(robot, motion);
   const ScanPoints& points = robot.extractors[scan.laser].extract(scan);
   renew_reference(robot, points, prior.T_reference_scan);
-  Alignment alignment = match(robot, points, prior, laser);
+  Alignment alignment = match(robot, points, prior, motion, laser);
   if (!alignment.usable() && robot.pose.patch != robot.last_kept) {
-    alignment = match_on_own_way(robot, points, prior, alignment, laser);
+    alignment = match_on_own_way(robot, points, prior, motion, alignment, laser);
   }
 
   Step result;
@@ -108,7 +109,6 @@ Step Mapper::State::start_island(RobotState& robot, const Event& event, const Sc
 }
 
 PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& scan) {
-  const LaserModel& laser = laser_of(event.robot, scan);
   const PatchId anchor = robot.pose.patch;
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
   const PatchId id = make_id<PatchId>(map.patch_count());
@@ -116,12 +116,8 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
                            robot.extractors[scan.laser]);
   const std::vector<LocalPatch> views =
       select_views(map, robot.local, patch.points, T_anchor_robot, robot.last_kept, options.relation_views);
-  RelateOptions relate_options;
-  relate_options.kappa = laser.kappa;
-  relate_options.match.incidence_bias = laser.incidence_bias;
   // The prior of the new patch's fit is odometry's only: the match's own beams must not count twice.
-  const RelatedPatch related =
-      relate(map, views, patch.points, {T_anchor_robot, 1e-3 * Matrix3d::Identity()}, relate_options);
+  const RelatedPatch related = relate(map, views, patch, {T_anchor_robot, 1e-3 * Matrix3d::Identity()});
   editor.add_patch(std::move(patch), map.T_plane_patch(anchor) * related.T_anchor_patch, map.island_of(anchor));
   graph.add_pose();
   for (const NewRelation& r : related.relations) {
@@ -149,13 +145,17 @@ void Mapper::State::look_for_loops(PatchId id, const LocalMap& known) {
   times.close_s += thread_seconds() - began;
 }
 
-void Mapper::State::look_for_loops_again() {
+void Mapper::State::close_what_is_left() {
   const double began = thread_seconds();
   MapInProgress progress{map, editor, graph};
   fit_islands(map, editor);
   progress.graph = information_graph(map);
-  close_loops_again(progress, closer, options);
-  join_on_evidence(progress, closer, options.join_on_evidence, options);
+  if (options.look_alikes) {
+    close_loops_again(progress, closer, options);
+    join_on_evidence(progress, closer, options.join_on_evidence, options);
+  }
+  closer.follow_ways(map);
+  tie_neighbours(progress, closer.along(), options);
   times.close_s += thread_seconds() - began;
 }
 
@@ -200,7 +200,7 @@ void Mapper::finish() {
   s.counts.sightings_left = s.sightings.left();
   if (s.patches_at_last_fit == s.map.patch_count()) return;
   s.patches_at_last_fit = s.map.patch_count();
-  if (s.options.closures && s.options.look_alikes) s.look_for_loops_again();
+  if (s.options.closures) s.close_what_is_left();
   const double began = thread_seconds();
   fit_islands(s.map, s.editor);
   s.graph = information_graph(s.map);

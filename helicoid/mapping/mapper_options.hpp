@@ -29,6 +29,8 @@ struct MapperOptions {
   double reference_renewal_turn = 0.4;
   /// A match with fewer inliers is tried again from a fan of headings.
   double good_inlier_share = 0.55;
+  /// One with fewer than this part of the usual share is compared with what another motion leads to.
+  double usual_inlier_part = 0.85;
   /// Loops are closed when the evidence is in.
   bool closures = true;
   /// False: as in the paper (IV-B) only a sighting sets loop closing off; until then no place is compared with another.

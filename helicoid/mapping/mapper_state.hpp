@@ -29,16 +29,17 @@ struct Mapper::State {
               const LaserModel& laser);
   Step start_island(RobotState& robot, const Event& event, const Scan& scan);
   void renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot);
-  Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const LaserModel& laser);
-  Alignment match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior, const Alignment& failed,
-                             const LaserModel& laser);
+  Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const Motion& motion,
+                  const LaserModel& laser);
+  Alignment match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior, const Motion& motion,
+                             const Alignment& failed, const LaserModel& laser);
   bool is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan, std::size_t points) const;
   void take(const Event& event, const Sighting& sighting);
   void join_what_is_determined(bool last);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan);
   void relate_to_last(RobotState& robot, PatchId id);
   void look_for_loops(PatchId id, const LocalMap& known);
-  void look_for_loops_again();
+  void close_what_is_left();
   void add_relation(const Relation& relation);
   void stand_on(RobotState& robot, const LocalPatch& ground);
   const LaserModel& laser_of(RobotId robot, const Scan& scan) const { return map.robot(robot).lasers[scan.laser]; }

@@ -14,6 +14,8 @@ constexpr double kPositionPerRadian = 0.02;  // metres per radian
 constexpr double kHeadingNoise = 0.01;       // radians, standing
 constexpr double kHeadingPerRadian = 0.15;
 constexpr double kHeadingPerMetre = 0.06;  // radians per metre
+constexpr double kDriving = 0.05;          // metres from scan to scan: a robot that drives
+constexpr double kStopped = 0.2;           // and has all at once stopped: this part of it
 constexpr double kUnmeasuredFactor = 5;    // constant velocity is worth this much less
 
 }  // namespace
@@ -23,18 +25,34 @@ Motion MotionPrior::advance(const Scan& scan, double stamp) {
   // Stamps that stand still or step back tell no time: a usual interval then.
   const double elapsed = (stamp > last_stamp_ ? std::min(stamp - last_stamp_, 10.0) : 0.3) + limits_.slack;
   if (!scan.has_odometry) {
-    motion = {velocity_, false, false};
+    motion = {velocity_, false, false, velocity_};
   } else if (has_last_) {
     motion.T_last_now = T_odom_last_.inverse() * scan.T_odom_robot;
+    motion.T_last_now_odometry = motion.T_last_now;
     if (motion.T_last_now.distance() > limits_.speed * elapsed ||
         std::abs(motion.T_last_now.yaw) > limits_.turn_rate * elapsed) {
-      motion = {velocity_, false, true};
+      motion.T_last_now = velocity_;
+      motion.measured = false;
+      motion.impossible = true;
     }
   }
   has_last_ = scan.has_odometry;
   T_odom_last_ = scan.T_odom_robot;
   last_stamp_ = stamp;
   return motion;
+}
+
+bool MotionPrior::is_doubtful(const Motion& motion) const {
+  if (in_doubt_ || motion.impossible) return true;
+  const double before = velocity_.distance();
+  return motion.measured && before > kDriving && motion.T_last_now.distance() < kStopped * before;
+}
+
+Motion MotionPrior::alternative(const Motion& motion) const {
+  Motion other = motion;
+  other.measured = false;
+  other.T_last_now = motion.impossible ? motion.T_last_now_odometry : velocity_;
+  return other;
 }
 
 Vector3d MotionPrior::sigma(double path, double turn) const {

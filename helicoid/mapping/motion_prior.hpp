@@ -18,6 +18,7 @@ struct Motion {
   Pose2 T_last_now;
   bool measured = true;  ///< false: no odometry, or an impossible step; constant velocity instead
   bool impossible = false;
+  Pose2 T_last_now_odometry;  ///< the step as odometry has it, possible or not
 };
 
 class MotionPrior {
@@ -28,10 +29,11 @@ class MotionPrior {
   Motion advance(const Scan& scan, double stamp);
   /// What the match made of it: the innovation scales the next priors.
   void learn(const Motion& predicted, const Pose2& T_last_now_matched);
-  /// True if the last match contradicted the odometry, or there was none: constant velocity is worth a try.
-  [[nodiscard]] bool in_doubt() const { return in_doubt_; }
-  /// The last matched motion, as a prediction of the next.
-  [[nodiscard]] Motion constant_velocity() const { return {velocity_, false, false}; }
+  /// True if this motion is not to be taken on trust: the last match contradicted the odometry, or a robot that drove
+  /// has all at once not moved: some odometry stands still for a few scans and makes up for them in one step.
+  [[nodiscard]] bool is_doubtful(const Motion& motion) const;
+  /// What else it may have been: the last matched motion once more, or the step that is thought impossible.
+  [[nodiscard]] Motion alternative(const Motion& motion) const;
   /// How well this motion is known: of T_last_now.
   [[nodiscard]] Matrix3d covariance(const Motion& motion) const;
   /// Information about the raw motion between two kept patches that lie this far apart along the path.

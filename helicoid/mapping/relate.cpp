@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "helicoid/manifold/seen_free.hpp"
+
 namespace helicoid {
 
 namespace {
@@ -30,25 +32,51 @@ Pose2 fit_alone(std::span<const LocalPatch> views, std::span<const PairMatch> ma
   return T;
 }
 
+/// True if the two views say the same of most places that both speak of, b standing at T_a_b.
+bool agree(const Patch& a, const Patch& b, const Pose2& T_a_b, const PairMatch& match, const RelateOptions& options) {
+  const int against = count_contradictions(a, b.points, T_a_b, options.deep) +
+                      count_contradictions(b, a.points, T_a_b.inverse(), options.deep);
+  return match.correspondences >= options.least_agreeing * (match.correspondences + against);
+}
+
+/// Takes out the matches of views that the patch contradicts. True if there was one.
+bool drop_contradicted(const Map& map, std::span<const LocalPatch> views, const Patch& patch,
+                       const Pose2& T_anchor_patch, const RelateOptions& options, std::vector<PairMatch>& matches) {
+  bool dropped = false;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (matches[i].correspondences == 0) continue;
+    const Pose2 T_a_b = views[i].T_anchor_patch.inverse() * T_anchor_patch;
+    if (agree(map.patch(views[i].patch), patch, T_a_b, matches[i], options)) continue;
+    matches[i] = {};
+    dropped = true;
+  }
+  return dropped;
+}
+
 }  // namespace
 
-RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points, const PosePrior& prior,
+RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Patch& patch, const PosePrior& prior,
                     const RelateOptions& options) {
   RelatedPatch result{prior.T_reference_scan, {}};
+  MatchPairOptions match = options.match;
+  match.incidence_bias = patch.laser.incidence_bias;
   std::vector<PairMatch> matches(views.size());
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t i = 0; i < views.size(); ++i) {
-      const Patch& patch = map.patch(views[i].patch);
-      const PairReference reference{&patch.points, &patch.laser, patch.scan.T_robot_laser};
+      const Patch& view = map.patch(views[i].patch);
+      const PairReference reference{&view.points, &view.laser, view.scan.T_robot_laser};
       matches[i] =
-          match_pair(reference, points, views[i].T_anchor_patch.inverse() * result.T_anchor_patch, options.match);
+          match_pair(reference, patch.points, views[i].T_anchor_patch.inverse() * result.T_anchor_patch, match);
       if (matches[i].correspondences < options.min_correspondences) matches[i] = {};
     }
     const Pose2 matched_at = result.T_anchor_patch;
-    result.T_anchor_patch = fit_alone(views, matches, matched_at, prior, options.kappa);
+    result.T_anchor_patch = fit_alone(views, matches, matched_at, prior, patch.laser.kappa);
     // Correspondences found this near the fitted pose would be found again.
     const Pose2 moved = matched_at.inverse() * result.T_anchor_patch;
     if (moved.distance() < options.settled_position && std::abs(moved.yaw) < options.settled_heading) break;
+  }
+  if (drop_contradicted(map, views, patch, result.T_anchor_patch, options, matches)) {
+    result.T_anchor_patch = fit_alone(views, matches, prior.T_reference_scan, prior, patch.laser.kappa);
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (matches[i].correspondences == 0) continue;

@@ -11,12 +11,15 @@
 namespace helicoid {
 
 struct RelateOptions {
-  MatchPairOptions match;
-  double kappa = 8;
+  MatchPairOptions match;           ///< but the incidence bias, which is the laser's
   int rounds = 3;                   ///< of matching and fitting at most, EM-style
   double settled_position = 0.004;  ///< a fit that moves less ends the rounds, metres
   double settled_heading = 0.002;   ///< radians
   int min_correspondences = 20;
+  /// Of what the two views say of the same places, this share at least must agree: correspondences, against points of
+  /// either that lie deep in what the other saw as free.
+  double least_agreeing = 0.5;
+  double deep = 0.15;  ///< metres
 };
 
 /// The relation of a local patch (a) with the new one (b).
@@ -33,9 +36,9 @@ struct RelatedPatch {
   std::vector<NewRelation> relations;
 };
 
-/// Matches `points` of a new patch that stands about at `prior` against each of the views, fits its pose against all
-/// of them together, and repeats.
-[[nodiscard]] RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
+/// Matches a new patch that stands about at `prior` against each of the views, fits its pose against all of them
+/// together, and repeats. Views that it contradicts are left out: things may have moved, or it stands elsewhere.
+[[nodiscard]] RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Patch& patch,
                                   const PosePrior& prior, const RelateOptions& options = {});
 
 }  // namespace helicoid

@@ -25,6 +25,7 @@ struct RobotState {
   Pose2 T_kept_robot_raw;  ///< raw odometry since the last kept patch
   double path = 0;         ///< along it, metres
   double turn = 0;         ///< radians
+  double usual_share = 0;  ///< running mean of the matches' inlier shares
 };
 
 }  // namespace helicoid

@@ -24,24 +24,22 @@ void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points,
     robot.T_anchor_coverage_view = T_anchor_robot;
     robot.stale = false;
   }
-  std::vector<ReferencePart> parts;
-  for (const LocalPatch& view :
-       select_views(map, robot.local, points, T_anchor_robot, robot.last_kept, options.reference_views)) {
-    parts.push_back({&map.patch(view.patch).points, view.T_anchor_patch});
-  }
-  robot.reference.build(parts);
+  const std::vector<LocalPatch> views =
+      select_views(map, robot.local, points, T_anchor_robot, robot.last_kept, options.reference_views);
+  robot.reference.build(reference_parts(map, views));
   robot.T_anchor_reference_view = T_anchor_robot;
 }
 
 Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, const PosePrior& prior,
-                               const LaserModel& laser) {
+                               const Motion& motion, const LaserModel& laser) {
   AlignOptions align;
   align.kappa = laser.kappa;
   align.incidence_bias = laser.incidence_bias;
   Alignment alignment = align_scan(robot.reference, points, prior, align);
-  if (robot.motion.in_doubt() || alignment.inlier_share < options.good_inlier_share) {
-    const Motion steady = robot.motion.constant_velocity();
-    const Alignment other = align_scan(robot.reference, points, predict(robot, steady), align);
+  const bool is_unusual = alignment.inlier_share < options.usual_inlier_part * robot.usual_share;
+  if (robot.motion.is_doubtful(motion) || is_unusual || alignment.inlier_share < options.good_inlier_share) {
+    const PosePrior there = predict(robot, robot.motion.alternative(motion));
+    const Alignment other = align_scan(robot.reference, points, there, align);
     if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
   }
   if (alignment.status == AlignStatus::too_few_inliers || alignment.inlier_share < options.good_inlier_share) {
@@ -54,7 +52,7 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
 
 /// The older ground on which the robot was taken to stand does not fit: back to the patch that it kept last.
 Alignment Mapper::State::match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior,
-                                          const Alignment& failed, const LaserModel& laser) {
+                                          const Motion& motion, const Alignment& failed, const LaserModel& laser) {
   const ManifoldPose pose = robot.pose;
   const Matrix3d covariance = robot.covariance;
   const PosePrior there = prior;
@@ -65,7 +63,7 @@ Alignment Mapper::State::match_on_own_way(RobotState& robot, const ScanPoints& p
   prior = {T_last_anchor * there.T_reference_scan, turned(there.information, T_last_anchor.yaw)};
   robot.stale = true;
   renew_reference(robot, points, prior.T_reference_scan);
-  Alignment alignment = match(robot, points, prior, laser);
+  Alignment alignment = match(robot, points, prior, motion, laser);
   if (alignment.usable()) return alignment;
   robot.pose = pose;
   robot.covariance = covariance;
@@ -89,6 +87,7 @@ Motion Mapper::State::advance(RobotState& robot, const Event& event, const Scan&
 
 void Mapper::State::follow(RobotState& robot, const Motion& motion, const PosePrior& prior, const Alignment& alignment,
                            const LaserModel& laser) {
+  constexpr double kShareMemory = 0.1;
   Pose2& T_anchor_robot = robot.pose.T_patch_robot;
   Matrix3d information = prior.information;
   if (alignment.usable()) {
@@ -96,6 +95,7 @@ void Mapper::State::follow(RobotState& robot, const Motion& motion, const PosePr
     robot.motion.learn(motion, T_anchor_robot.inverse() * alignment.T_reference_scan);
     T_anchor_robot = alignment.T_reference_scan;
     information += alignment.information / laser.kappa;
+    robot.usual_share += kShareMemory * (alignment.inlier_share - robot.usual_share);
   } else {
     ++counts.predicted;
     T_anchor_robot = prior.T_reference_scan;

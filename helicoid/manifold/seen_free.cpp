@@ -1,0 +1,34 @@
+#include "helicoid/manifold/seen_free.hpp"
+
+#include <cmath>
+
+namespace helicoid {
+
+SeenFree::SeenFree(const Patch& patch) : ranges_(patch.free_ranges), beams_(patch.laser) {
+  const Pose2 T_laser_patch = patch.scan.T_robot_laser.inverse();
+  R_laser_patch_ = T_laser_patch.rotation().cast<float>();
+  t_laser_patch_ = T_laser_patch.translation().cast<float>();
+}
+
+bool SeenFree::is_deep(const Eigen::Vector2f& p_patch, float depth) const {
+  const Eigen::Vector2f p_laser = R_laser_patch_ * p_patch + t_laser_patch_;
+  const auto beam = static_cast<std::ptrdiff_t>(std::floor(beams_.at(p_laser.x(), p_laser.y()) + 0.5F));
+  if (beam < 1 || beam + 1 >= std::ssize(ranges_)) return false;
+  const float needed = p_laser.norm() + depth;
+  const float* at = ranges_.data() + beam;
+  return at[-1] >= needed && at[0] >= needed && at[1] >= needed;
+}
+
+int count_contradictions(const Patch& patch, const ScanPoints& points, const Pose2& T_patch_points, double depth) {
+  const SeenFree free(patch);
+  const Eigen::Matrix2f R = T_patch_points.rotation().cast<float>();
+  const Eigen::Vector2f t = T_patch_points.translation().cast<float>();
+  int count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points.weight[i] <= 0) continue;
+    count += free.is_deep(R * Eigen::Vector2f(points.x[i], points.y[i]) + t, static_cast<float>(depth)) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace helicoid

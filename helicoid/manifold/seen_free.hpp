@@ -1,0 +1,29 @@
+// What a patch saw as free, asked for many points: for judging whether two views agree.
+#pragma once
+
+#include "helicoid/manifold/patch.hpp"
+#include "helicoid/sensor/beam_finder.hpp"
+
+namespace helicoid {
+
+class SeenFree {
+ public:
+  /// The patch outlives this.
+  explicit SeenFree(const Patch& patch);
+
+  /// True if the point (patch frame, metres) lies in the patch's free space, at least `depth` metres before its edge
+  /// along the beam that looks there and along its neighbours: a point behind an edge is not inside.
+  [[nodiscard]] bool is_deep(const Eigen::Vector2f& p_patch, float depth) const;
+
+ private:
+  const std::vector<float>& ranges_;
+  BeamFinder beams_;
+  Eigen::Matrix2f R_laser_patch_;
+  Eigen::Vector2f t_laser_patch_;
+};
+
+/// How many of the points (with a normal, of another view) lie that deep in what the patch saw as free.
+[[nodiscard]] int count_contradictions(const Patch& patch, const ScanPoints& points, const Pose2& T_patch_points,
+                                       double depth);
+
+}  // namespace helicoid

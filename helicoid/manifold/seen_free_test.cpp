@@ -1,0 +1,50 @@
+#include "helicoid/manifold/seen_free.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/synthetic_room.hpp"
+
+namespace helicoid {
+namespace {
+
+TEST(SeenFree, IsDeepWhereThePolygonReachesFartherToAllSides) {
+  const synthetic::Builder builder = synthetic::pillar_map();
+  Random random(1);
+  int deep = 0;
+  for (const PatchId id : builder.patches()) {
+    const Patch& patch = builder.map.patch(id);
+    const SeenFree free(patch);
+    for (int i = 0; i < 200; ++i) {
+      const Vector2d p(random.uniform(-8, 8), random.uniform(-8, 8));
+      if (!free.is_deep(p.cast<float>(), 0.2F)) continue;
+      ++deep;
+      EXPECT_TRUE(contains(patch, p));
+      EXPECT_TRUE(contains(patch, (1 + 0.19 / p.norm()) * p));
+    }
+  }
+  EXPECT_GT(deep, 200);
+}
+
+TEST(SeenFree, NothingIsContradictedByASecondLookAtTheSameWalls) {
+  const synthetic::Builder builder = synthetic::pillar_map();
+  const Map& map = builder.map;
+  for (const PatchId a : builder.patches()) {
+    for (const PatchId b : builder.patches()) {
+      const Pose2 T_a_b = map.T_plane_patch(a).inverse() * map.T_plane_patch(b);
+      EXPECT_EQ(count_contradictions(map.patch(a), map.patch(b).points, T_a_b, 0.15), 0);
+    }
+  }
+}
+
+TEST(SeenFree, AWallInFrontOfThatWhichWasSeenIsContradicted) {
+  synthetic::Builder builder;
+  const PatchId before = builder.add(synthetic::rectangle(0, 0, 6, 4), {1, 2, 0});
+  const PatchId after = builder.add(synthetic::rectangle(0, 0, 5, 4), {1, 2, 0});
+  const Map& map = builder.map;
+  // The wall at x = 5 is seen by some 50 beams; what lies behind it contradicts nothing.
+  EXPECT_GT(count_contradictions(map.patch(before), map.patch(after).points, {}, 0.15), 30);
+  EXPECT_EQ(count_contradictions(map.patch(after), map.patch(before).points, {}, 0.15), 0);
+}
+
+}  // namespace
+}  // namespace helicoid

@@ -1,0 +1,50 @@
+#include "helicoid/mapping/map_in_progress.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/manifold/confidence.hpp"
+#include "helicoid/mapping/relate.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// Along a robot's way; patches nearer than this are one stretch, metres.
+constexpr double kStretch = 4;
+constexpr int kMinCorrespondences = 40;
+
+}  // namespace
+
+void MapInProgress::add(const Relation& relation) {
+  editor.add_relation(relation);
+  graph.add(relation.a.value, relation.b.value, relation.T_a_b,
+            expand(relation.form, relation.T_a_b).information / information_divisor(map, relation));
+}
+
+bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along) {
+  const auto near = [&](PatchId other) {
+    return map.patch(other).robot == map.patch(q).robot && std::abs(along[other.index()] - along[q.index()]) < kStretch;
+  };
+  if (near(patch)) return true;
+  const std::span<const RelationId> relations = map.relations_of(patch);
+  return std::any_of(relations.begin(), relations.end(), [&](RelationId id) {
+    const Relation& r = map.relation(id);
+    return r.kind != RelationKind::odometry && near(r.a == patch ? r.b : r.a);
+  });
+}
+
+std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views,
+                               const PosePrior& prior, RelationKind kind) {
+  RelateOptions options;
+  options.min_correspondences = kMinCorrespondences;
+  std::vector<PatchId> related;
+  const RelatedPatch found = relate(progress.map, views, progress.map.patch(b), prior, options);
+  for (const NewRelation& r : found.relations) {
+    progress.add({r.patch, b, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
+    related.push_back(r.patch);
+  }
+  return related;
+}
+
+}  // namespace helicoid

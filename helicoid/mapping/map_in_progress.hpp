@@ -1,0 +1,32 @@
+// A map while loops are closed in it: relations that are added, and which are still to be made.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "helicoid/align/align_scan.hpp"
+#include "helicoid/manifold/map_editor.hpp"
+#include "helicoid/mapping/local_map.hpp"
+
+namespace helicoid {
+
+/// The map that is being changed and the information of its relations, which must follow.
+struct MapInProgress {
+  const Map& map;
+  MapEditor& editor;
+  InformationGraph& graph;
+  void add(const Relation& relation);
+};
+
+/// Patches that are to be related lie this near, metres.
+inline constexpr double kTieReach = 3;
+
+/// True if some relation of the patch already leads to q's stretch of way: one patch of a stretch is enough to relate
+/// to. `along`: how far along its robot's way each patch was kept, metres.
+[[nodiscard]] bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along);
+
+/// Relates a patch to the views, all of them older. Those that it was related to.
+std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views,
+                               const PosePrior& prior, RelationKind kind);
+
+}  // namespace helicoid

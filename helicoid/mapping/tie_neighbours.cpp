@@ -1,0 +1,87 @@
+#include "helicoid/mapping/tie_neighbours.hpp"
+
+#include "helicoid/align/align_scan.hpp"
+#include "helicoid/fit/confident_pairs.hpp"
+#include "helicoid/manifold/confidence.hpp"
+#include "helicoid/mapping/fit_islands.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// Patches that another is tied to at once.
+constexpr std::size_t kViews = 4;
+
+/// Pairs that lie near each other (by their places in the island, the older one first) where no relation ties the
+/// younger one to the older one's stretch of way.
+std::vector<PosePair> untied_pairs(const Map& map, const Island& island, std::span<const double> along) {
+  std::vector<PosePair> pairs;
+  for (std::uint32_t a = 0; a < island.patches.size(); ++a) {
+    const PatchId p = island.patches[a];
+    const Vector2d place = map.T_plane_patch(p).translation();
+    for (std::uint32_t b = a + 1; b < island.patches.size(); ++b) {
+      const PatchId q = island.patches[b];
+      if ((map.T_plane_patch(q).translation() - place).squaredNorm() > kTieReach * kTieReach) continue;
+      if (!is_tied_to_stretch(map, q, p, along)) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+/// For every patch of the island the older ones that it is confident of, but not tied to.
+std::vector<LocalMap> find_untied(const Map& map, const Island& island, std::span<const double> along,
+                                  const MapperOptions& options) {
+  std::vector<LocalMap> untied(island.patches.size());
+  const std::vector<PosePair> pairs = untied_pairs(map, island, along);
+  if (pairs.empty()) return untied;
+  std::vector<Pose2> poses;
+  for (const PatchId id : island.patches) poses.push_back(map.T_plane_patch(id));
+  const std::vector<GraphEdge> edges = graph_edges(map, island);
+  const PairLimits limits{options.reference_position, options.reference_heading};
+  for (const auto& [a, b] : confident_pairs(poses, RelativeCovariance(poses, edges), pairs, limits)) {
+    untied[b].push_back({island.patches[a], poses[b].inverse() * poses[a]});
+  }
+  return untied;
+}
+
+/// Confident means to 15 cm: from there the patch is aligned first, since correspondences of a pair reach less far.
+bool tie_patch(MapInProgress& progress, PatchId b, const LocalMap& known) {
+  const Map& map = progress.map;
+  const Patch& patch = map.patch(b);
+  const std::vector<LocalPatch> views = select_views(map, known, patch.points, Pose2{}, PatchId{}, kViews);
+  Reference reference;
+  reference.build(reference_parts(map, views));
+  AlignOptions align;
+  align.kappa = patch.laser.kappa;
+  align.incidence_bias = patch.laser.incidence_bias;
+  const Matrix3d open = Vector3d(1e2, 1e2, 1e3).asDiagonal();
+  const Alignment found = align_scan(reference, patch.points, {Pose2{}, open}, align);
+  if (!found.usable()) return false;
+  return !relate_to(progress, b, views, {found.T_reference_scan, open}, RelationKind::overlap).empty();
+}
+
+int tie_island(MapInProgress& progress, const Island& island, std::span<const double> along,
+               const MapperOptions& options) {
+  std::vector<LocalMap> untied = find_untied(progress.map, island, along, options);
+  int tied = 0;
+  for (std::size_t b = 0; b < untied.size(); ++b) {
+    const PatchId id = island.patches[b];
+    std::erase_if(untied[b], [&](const LocalPatch& p) { return is_tied_to_stretch(progress.map, id, p.patch, along); });
+    if (!untied[b].empty() && tie_patch(progress, id, untied[b])) ++tied;
+  }
+  return tied;
+}
+
+}  // namespace
+
+void tie_neighbours(MapInProgress& progress, std::span<const double> along, const MapperOptions& options) {
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    int tied = 0;
+    for (const Island& island : progress.map.islands()) tied += tie_island(progress, island, along, options);
+    if (tied == 0) return;
+    fit_islands(progress.map, progress.editor);
+  }
+}
+
+}  // namespace helicoid
