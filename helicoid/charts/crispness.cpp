@@ -13,9 +13,19 @@ constexpr std::size_t kFacings = 4;
 /// Fewer points than this are no surface.
 constexpr float kFewestPoints = 1.5F;
 
+/// So many points of one scan are a surface: fewer may be beams that hit an edge.
+constexpr std::size_t kPointsOfOneScan = 3;
+
 /// Sum of the unit normals of the points that face one way; its length is about their number.
 struct Normals {
   float x = 0, y = 0;
+};
+
+/// A point that a patch has in a cell.
+struct PointInCell {
+  std::size_t cell;
+  PatchId patch;
+  Eigen::Vector2f normal;
 };
 
 class Surfaces {
@@ -23,6 +33,9 @@ class Surfaces {
   Surfaces(const Map& map, std::span<const PatchId> patches, const OccupancyGrid& grid)
       : frame_(grid.frame), states_(classify(grid)), normals_(frame_.size()) {
     for (const PatchId id : patches) add(map.patch(id), map.T_plane_patch(id));
+    std::sort(points_.begin(), points_.end(), [](const PointInCell& p, const PointInCell& q) {
+      return p.cell != q.cell ? p.cell < q.cell : p.patch < q.patch;
+    });
   }
 
   [[nodiscard]] const std::vector<CellState>& states() const { return states_; }
@@ -50,6 +63,33 @@ class Surfaces {
     });
   }
 
+  /// The patches that have enough points on the surface that runs through this place [cells], faces along `normal` and
+  /// is so long to either side; ascending.
+  [[nodiscard]] std::vector<PatchId> seen_by(const Vector2d& centre, const Vector2d& normal, int cells,
+                                             double same_facing) const {
+    std::vector<PatchId> patches;
+    const Vector2d along(-normal.y(), normal.x());
+    for (int step = -cells; step <= cells; ++step) {
+      const Vector2d at = centre + step * along;
+      const auto column = static_cast<int>(std::floor(at.x()));
+      const auto row = static_cast<int>(std::floor(at.y()));
+      if (!frame_.inside(column, row)) continue;
+      const std::size_t cell = frame_.index(column, row);
+      auto point = std::lower_bound(points_.begin(), points_.end(), cell,
+                                    [](const PointInCell& p, std::size_t c) { return p.cell < c; });
+      for (; point != points_.end() && point->cell == cell; ++point) {
+        if (point->normal.cast<double>().dot(normal) >= same_facing) patches.push_back(point->patch);
+      }
+    }
+    std::sort(patches.begin(), patches.end());
+    std::vector<PatchId> with_enough;
+    for (std::size_t i = kPointsOfOneScan - 1; i < patches.size(); ++i) {
+      if (patches[i] != patches[i - (kPointsOfOneScan - 1)]) continue;
+      if (with_enough.empty() || with_enough.back() != patches[i]) with_enough.push_back(patches[i]);
+    }
+    return with_enough;
+  }
+
  private:
   void add(const Patch& patch, const Pose2& T_plane_patch) {
     const Matrix2d R = T_plane_patch.rotation();
@@ -58,6 +98,9 @@ class Surfaces {
       if (points.weight[i] <= 0) continue;
       const Vector2d p = frame_.to_cells(T_plane_patch * Vector2d(points.x[i], points.y[i]));
       const Vector2d n = R * Vector2d(points.nx[i], points.ny[i]);
+      const auto column = static_cast<int>(std::floor(p.x()));
+      const auto row = static_cast<int>(std::floor(p.y()));
+      if (frame_.inside(column, row)) points_.push_back({frame_.index(column, row), patch.id, n.cast<float>()});
       // Beams lie wider than cells: a point speaks for the cells beside it on its surface, too.
       for (const double step : {-1.0, 0.0, 1.0}) add(p + step * Vector2d(-n.y(), n.x()), n);
     }
@@ -91,6 +134,14 @@ class Surfaces {
   const GridFrame& frame_;
   std::vector<CellState> states_;
   std::vector<std::array<Normals, kFacings>> normals_;
+  std::vector<PointInCell> points_;  ///< ascending
+};
+
+/// Of one cell.
+enum class Twin : std::uint8_t {
+  none,
+  seen_at_once,  ///< some scan has points on both surfaces: they are there
+  drawn_twice
 };
 
 class TwinFinder {
@@ -98,8 +149,9 @@ class TwinFinder {
   TwinFinder(const Surfaces& surfaces, const GridFrame& frame, const CrispnessOptions& options)
       : surfaces_(surfaces), frame_(frame), options_(options) {}
 
-  [[nodiscard]] bool has_twin(int column, int row) const {
+  [[nodiscard]] Twin look(int column, int row) const {
     const Vector2d centre(column + 0.5, row + 0.5);
+    Twin found = Twin::none;
     for (const Normals& sum : surfaces_.normals(frame_.index(column, row))) {
       const double length = std::hypot(sum.x, sum.y);
       if (length < static_cast<double>(kFewestPoints)) continue;
@@ -108,10 +160,14 @@ class TwinFinder {
       const double first = options_.nearest / frame_.resolution;
       const double last = options_.farthest / frame_.resolution;
       for (double depth = first; depth <= last; depth += 1) {
-        if (side_by_side(centre, normal, depth) || side_by_side(centre, normal, -depth)) return true;
+        for (const double there : {depth, -depth}) {
+          if (!side_by_side(centre, normal, there)) continue;
+          if (!seen_at_once(centre, normal, there)) return Twin::drawn_twice;
+          found = Twin::seen_at_once;
+        }
       }
     }
-    return false;
+    return found;
   }
 
  private:
@@ -137,6 +193,14 @@ class TwinFinder {
     return count >= needed;
   }
 
+  [[nodiscard]] bool seen_at_once(const Vector2d& centre, const Vector2d& normal, double depth) const {
+    const int cells = std::max(1, static_cast<int>(std::lround(options_.extent / frame_.resolution)));
+    const std::vector<PatchId> here = surfaces_.seen_by(centre, normal, cells, options_.same_facing);
+    const std::vector<PatchId> there = surfaces_.seen_by(centre + depth * normal, normal, cells, options_.same_facing);
+    return std::any_of(here.begin(), here.end(),
+                       [&](PatchId id) { return std::binary_search(there.begin(), there.end(), id); });
+  }
+
   /// Without the slack of a cell along the normal, which would call the blur of one wall its twin.
   [[nodiscard]] bool exactly_there(const Vector2d& p, const Vector2d& normal) const {
     const auto column = static_cast<int>(std::floor(p.x()));
@@ -160,7 +224,9 @@ Crispness measure_crispness(const Map& map, std::span<const PatchId> patches, co
     for (int column = 0; column < grid.frame.width; ++column) {
       if (surfaces.states()[grid.frame.index(column, row)] != CellState::occupied) continue;
       ++result.occupied;
-      if (finder.has_twin(column, row)) ++result.twins;
+      const Twin twin = finder.look(column, row);
+      if (twin == Twin::drawn_twice) ++result.twins;
+      if (twin == Twin::seen_at_once) ++result.seen_at_once;
     }
   }
   if (result.occupied > 0) result.share = static_cast<double>(result.twins) / static_cast<double>(result.occupied);

@@ -54,6 +54,17 @@ TEST(Crispness, DoesNotCountACupboardAgainstTheWall) {
   EXPECT_EQ(measure(builder).twins, 0U);
 }
 
+TEST(Crispness, CountsApartWhatASingleScanShowsAtOnce) {
+  synthetic::Builder builder;
+  // A rail of short bars before a wall: every scan sees both.
+  std::vector<synthetic::Wall> walls = synthetic::rectangle(0, 0, 6, 4);
+  for (double y = 0.8; y < 3.2; y += 0.16) walls.push_back({{5.7, y}, {5.7, y + 0.08}});
+  for (double y = 0.5; y < 3.6; y += 0.1) builder.add(walls, {4.6, y, 0});
+  const Crispness crispness = measure(builder);
+  EXPECT_GT(crispness.seen_at_once, 20U);
+  EXPECT_EQ(crispness.twins, 0U);
+}
+
 TEST(Crispness, OfNothingIsZero) {
   const synthetic::Builder builder;
   EXPECT_EQ(measure(builder).share, 0);
