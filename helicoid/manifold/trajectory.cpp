@@ -1,6 +1,7 @@
 #include "helicoid/manifold/trajectory.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -13,7 +14,7 @@ namespace {
 constexpr double kRounding = 1e-6;
 constexpr double kSmallestDeviation = 1e-5;  ///< metres or radians; code 1. Code 0 is zero itself.
 constexpr double kDeviationStep = 1.0625;    ///< up to 47 m at code 255
-constexpr double kCorrelations = 127;
+constexpr int kCorrelations = 15;            ///< steps of a correlation to either side of none
 constexpr double kHeadings = 65536 / (2 * std::numbers::pi);
 
 std::uint8_t deviation_code(double variance) {
@@ -33,12 +34,52 @@ double deviation(std::uint8_t code) {
   return table[code];
 }
 
+/// Of (x, y), (x, yaw) and (y, yaw), in steps.
+using Correlations = std::array<int, 3>;
+
 /// Of a matrix with ones on its diagonal.
-bool is_positive(const std::array<std::int8_t, 3>& correlations) {
-  const double a = correlations[0] / kCorrelations;
-  const double b = correlations[1] / kCorrelations;
-  const double c = correlations[2] / kCorrelations;
+bool is_positive(const Correlations& steps) {
+  constexpr double kStep = 1.0 / kCorrelations;
+  const double a = steps[0] * kStep;
+  const double b = steps[1] * kStep;
+  const double c = steps[2] * kStep;
   return 1 + 2 * a * b * c - a * a - b * b - c * c >= 0;
+}
+
+std::uint16_t pack(const Correlations& steps) {
+  unsigned bits = 0;
+  for (const int step : steps) bits = bits << 5U | static_cast<unsigned>(step + kCorrelations);
+  return static_cast<std::uint16_t>(bits);
+}
+
+double unpack(std::uint16_t bits, int which) {
+  const int step = static_cast<int>(bits >> static_cast<unsigned>(5 * (2 - which)) & 31U) - kCorrelations;
+  return static_cast<double>(step) / kCorrelations;
+}
+
+std::array<std::uint8_t, 3> three_bytes(std::uint32_t lower) {
+  return {static_cast<std::uint8_t>(lower), static_cast<std::uint8_t>(lower >> 8U),
+          static_cast<std::uint8_t>(lower >> 16U)};
+}
+
+std::uint32_t whole(const std::array<std::uint8_t, 3>& bytes) {
+  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U | static_cast<std::uint32_t>(bytes[2]) << 16U;
+}
+
+std::array<std::uint8_t, 3> short_float(double value) {
+  // Rounds to the nearest: the next larger magnitude is the next larger number, across exponents too.
+  return three_bytes((std::bit_cast<std::uint32_t>(static_cast<float>(value)) + 0x80U) >> 8U);
+}
+
+/// Of what begins at scans, in order: that which scan i belongs to.
+template <class List>
+auto last_before(const List& list, std::size_t i) {
+  return std::prev(std::upper_bound(list.begin(), list.end(), i,
+                                    [](std::size_t at, const auto& element) { return at < element.first; }));
+}
+
+double long_float(const std::array<std::uint8_t, 3>& bytes) {
+  return static_cast<double>(std::bit_cast<float>(whole(bytes) << 8U));
 }
 
 }  // namespace
@@ -48,23 +89,24 @@ void Trajectory::put_covariance(Place& place, const Matrix3d& covariance) {
   static constexpr int kRow[] = {0, 0, 1};
   static constexpr int kColumn[] = {1, 2, 2};
   // Rounded correlations may contradict one another: then all of them fade, which claims less.
-  double share = 1;
-  do {
+  Correlations steps{};
+  for (int share = kCorrelations; share >= 0; --share) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double scale = std::sqrt(covariance(kRow[k], kRow[k]) * covariance(kColumn[k], kColumn[k]));
       const double correlation = scale > 0 ? covariance(kRow[k], kColumn[k]) / scale : 0;
-      const double code = share * kCorrelations * std::clamp(correlation, -1.0, 1.0);
-      place.correlations[k] = static_cast<std::int8_t>(code + std::copysign(kRounding, code));
+      const double code = share * std::clamp(correlation, -1.0, 1.0);
+      steps[k] = static_cast<int>(code + std::copysign(kRounding, code));
     }
-    share -= 1 / kCorrelations;
-  } while (!is_positive(place.correlations) && share > 0);
+    if (is_positive(steps)) break;
+  }
+  place.correlations = pack(steps);
 }
 
 Matrix3d Trajectory::covariance_of(const Place& place) {
   Matrix3d covariance = Matrix3d::Identity();
-  covariance(0, 1) = covariance(1, 0) = place.correlations[0] / kCorrelations;
-  covariance(0, 2) = covariance(2, 0) = place.correlations[1] / kCorrelations;
-  covariance(1, 2) = covariance(2, 1) = place.correlations[2] / kCorrelations;
+  covariance(0, 1) = covariance(1, 0) = unpack(place.correlations, 0);
+  covariance(0, 2) = covariance(2, 0) = unpack(place.correlations, 1);
+  covariance(1, 2) = covariance(2, 1) = unpack(place.correlations, 2);
   const Vector3d deviations(deviation(place.deviations[0]), deviation(place.deviations[1]),
                             deviation(place.deviations[2]));
   return deviations.asDiagonal() * covariance * deviations.asDiagonal();
@@ -83,24 +125,23 @@ std::uint32_t Trajectory::ground_of(const TrackedScan& scan) {
 }
 
 void Trajectory::push_back(const TrackedScan& scan) {
-  constexpr double kLongest = 4e9;
-  double since = clocks_.empty() ? -1 : 1e6 * (scan.stamp - clocks_.back());
+  constexpr double kLongest = 1 << 24;  // microseconds: three bytes
+  double since = clocks_.empty() ? -1 : 1e6 * (scan.stamp - clocks_.back().stamp);
   // Stamps may step back.
-  if (!(since >= 0 && since < kLongest)) {
-    clocks_.push_back(scan.stamp);
+  if (!(since >= 0 && since < kLongest - 1)) {
+    clocks_.push_back({static_cast<std::uint32_t>(size_), scan.stamp});
     since = 0;
   }
   const std::uint32_t ground = ground_of(scan);
-  const auto clock = static_cast<std::uint32_t>(clocks_.size() - 1);
-  if (stretches_.empty() || stretches_.back().ground != ground || stretches_.back().clock != clock) {
-    stretches_.push_back({static_cast<std::uint32_t>(size_), ground, clock});
+  if (stretches_.empty() || stretches_.back().ground != ground) {
+    stretches_.push_back({static_cast<std::uint32_t>(size_), ground});
   }
   if (size_++ % kBlock == 0) blocks_.emplace_back().reserve(kBlock);
   const Pose2& T = scan.pose.T_patch_robot;
   Place& place = blocks_.back().emplace_back();
-  place.x = static_cast<float>(T.x);
-  place.y = static_cast<float>(T.y);
-  place.microseconds = static_cast<std::uint32_t>(std::llround(since));
+  place.x = short_float(T.x);
+  place.y = short_float(T.y);
+  place.microseconds = three_bytes(static_cast<std::uint32_t>(std::llround(since)));
   place.yaw = static_cast<std::uint16_t>(std::llround(wrap_angle(T.yaw) * kHeadings));
   put_covariance(place, scan.covariance);
 }
@@ -110,16 +151,14 @@ TrackedScan Trajectory::read(std::size_t stretch, std::size_t i) const {
   const Ground& ground = grounds_[on.ground];
   const Place& place = blocks_[i / kBlock][i % kBlock];
   const auto yaw = static_cast<std::int16_t>(place.yaw);
-  return {clocks_[on.clock] + 1e-6 * place.microseconds,
-          {ground.patch, {place.x, place.y, yaw / kHeadings}},
+  return {last_before(clocks_, i)->stamp + 1e-6 * whole(place.microseconds),
+          {ground.patch, {long_float(place.x), long_float(place.y), yaw / kHeadings}},
           ground.T_island_patch,
           covariance_of(place)};
 }
 
 TrackedScan Trajectory::operator[](std::size_t i) const {
-  const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), i,
-                                      [](std::size_t at, const Stretch& stretch) { return at < stretch.first; });
-  return read(static_cast<std::size_t>(after - stretches_.begin()) - 1, i);
+  return read(static_cast<std::size_t>(last_before(stretches_, i) - stretches_.begin()), i);
 }
 
 TrackedScan Trajectory::Iterator::operator*() const {
@@ -135,7 +174,7 @@ Trajectory::Iterator& Trajectory::Iterator::operator++() {
 
 std::size_t Trajectory::bytes() const {
   return size_ * sizeof(Place) + stretches_.size() * sizeof(Stretch) + grounds_.capacity() * sizeof(Ground) +
-         latest_ground_.capacity() * sizeof(std::uint32_t) + clocks_.capacity() * sizeof(double);
+         latest_ground_.capacity() * sizeof(std::uint32_t) + clocks_.capacity() * sizeof(Clock);
 }
 
 }  // namespace helicoid

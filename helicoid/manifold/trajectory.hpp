@@ -1,4 +1,4 @@
-// Where a robot's scans were taken, in twenty bytes a scan: on known ground they are all that a map grows by.
+// Where a robot's scans were taken, in sixteen bytes a scan: on known ground they are all that a map grows by.
 #pragma once
 
 #include <array>
@@ -32,8 +32,9 @@ struct TrackedScan {
 };
 
 /// One entry a scan, in the log's order. What is read differs from what was appended by rounding: stamps by a
-/// microsecond, positions by the precision of a float, headings by 5e-5 rad; standard deviations are rounded up by at
-/// most a sixteenth. Appending what was read gives the same trajectory, to the bit.
+/// microsecond, positions by 1.6e-5 of their size, headings by 5e-5 rad; standard deviations are rounded up by at most
+/// a sixteenth, correlations towards zero by at most a fifteenth. Appending what was read gives the same trajectory, to
+/// the bit.
 class Trajectory {
  public:
   class Iterator {
@@ -76,14 +77,19 @@ class Trajectory {
   struct Stretch {
     std::uint32_t first = 0;
     std::uint32_t ground = 0;
-    std::uint32_t clock = 0;
   };
+  /// From which a scan and those after it count their microseconds.
+  struct Clock {
+    std::uint32_t first = 0;
+    double stamp = 0;
+  };
+  using ThreeBytes = std::array<std::uint8_t, 3>;
   struct Place {
-    float x, y;                               ///< of T_patch_robot
-    std::uint32_t microseconds;               ///< since the stretch's clock
-    std::uint16_t yaw;                        ///< of T_patch_robot, in 65536ths of a turn
-    std::array<std::uint8_t, 3> deviations;   ///< of x, y and yaw: steps of a logarithmic scale
-    std::array<std::int8_t, 3> correlations;  ///< of (x, y), (x, yaw), (y, yaw): 127ths
+    ThreeBytes x, y;             ///< of T_patch_robot: the upper three bytes of a float
+    ThreeBytes microseconds;     ///< since the clock
+    ThreeBytes deviations;       ///< of x, y and yaw: steps of a logarithmic scale
+    std::uint16_t yaw;           ///< of T_patch_robot, in 65536ths of a turn
+    std::uint16_t correlations;  ///< of (x, y), (x, yaw), (y, yaw): fifteenths, five bits each
   };
 
   static constexpr std::size_t kBlock = 1024;
@@ -98,7 +104,7 @@ class Trajectory {
   std::deque<Stretch> stretches_;
   std::vector<Ground> grounds_;
   std::vector<std::uint32_t> latest_ground_;  ///< by patch: its newest in grounds_, one more; 0: none
-  std::vector<double> clocks_;                ///< stamps from which microseconds are counted
+  std::vector<Clock> clocks_;
 };
 
 }  // namespace helicoid

@@ -56,15 +56,23 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
 bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan,
                                      std::size_t points) const {
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
+  // Who has kept nothing for a while walks known ground: there it takes more, or every lap would fill in gaps that the
+  // ones before it left by a little.
+  const double more =
+      robot.path + options.patch_spacing / options.patch_turn * robot.turn > options.known_way * options.patch_spacing
+          ? options.known_ground_factor
+          : 1;
   // A scan that saw next to nothing makes no patch: nothing could be matched to it.
   const bool sees = points >= static_cast<std::size_t>(AlignOptions{}.min_points);
-  if (sees && is_far_from_all(robot.local, T_anchor_robot, options)) return true;
-  if (!alignment.usable() || !is_far_from_all(robot.local, T_anchor_robot, options, options.apart_share)) return false;
-  if (alignment.inlier_share < options.new_surface_share) return true;
+  if (sees && is_far_from_all(robot.local, T_anchor_robot, options, more)) return true;
+  if (!alignment.usable() || !is_far_from_all(robot.local, T_anchor_robot, options, more * options.apart_share)) {
+    return false;
+  }
+  if (1 - alignment.inlier_share > more * (1 - options.new_surface_share)) return true;
   if (!has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) return false;
   robot.T_anchor_coverage_view = T_anchor_robot;
   return uncovered_share(map, robot.local, T_anchor_robot, scan, robot.extractors[scan.laser]) >
-         options.new_ground_share;
+         more * options.new_ground_share;
 }
 
 void Mapper::State::take(const Event& event, const Sighting& sighting) {

@@ -18,6 +18,10 @@ struct MapperOptions {
   double new_ground_share = 0.25;
   /// And its sign in the match: fewer of the scan's points than this lie on known surfaces.
   double new_surface_share = 0.70;
+  /// A robot that has kept no patch over this way, in spacings (turns count), is on known ground: all of the above are
+  /// larger there by this factor.
+  double known_way = 5;
+  double known_ground_factor = 1.4;
   /// The local map reaches this far and holds this many patches at most.
   double local_radius = 7;
   std::size_t local_patches = 80;
