@@ -36,8 +36,8 @@ struct BoundOptions {
   double radius = 15;      ///< and while they lie this near in the plane; metres
   std::size_t most = 400;  ///< poses at most
   /// The noise floor of a scan, once for either end (design 5.3).
-  double floor_position = 0.010;
-  double floor_heading = 0.0052;
+  double floor_position = 0.008;
+  double floor_heading = 0.0060;
 };
 
 /// A pose within the limits and an upper bound of its covariance relative to the reference, in the reference's frame.

@@ -20,8 +20,8 @@ struct LaserModel {
   /// Systematic error of a range that changes with how a surface is met (footprint, reflectance): metres between a beam
   /// that meets it head on and one that grazes it.
   double incidence_bias = 0.03;
-  double floor_position = 0.010;  ///< noise that all beams of a scan share, once per scan: metres
-  double floor_heading = 0.0052;  ///< the same, of the heading: radians
+  double floor_position = 0.008;  ///< noise that all beams of a scan share, once per scan: metres
+  double floor_heading = 0.0060;  ///< the same, of the heading: radians
   /// Beams farther apart than this do not vouch for the space between them; metres.
   double largest_gap = 0.25;
   /// From the first beam to the last, seconds; 0: the sweep is taken as one moment (see deskew.hpp).
