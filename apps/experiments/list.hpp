@@ -10,6 +10,7 @@ namespace helicoid {
 [[nodiscard]] Experiment laps_experiment();
 [[nodiscard]] Experiment outliers_experiment();
 [[nodiscard]] Experiment playback_experiment();
+[[nodiscard]] Experiment relations_experiment();
 [[nodiscard]] Experiment spiral_experiment();
 [[nodiscard]] Experiment teams_experiment();
 
