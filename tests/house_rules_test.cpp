@@ -50,6 +50,32 @@ TEST(HouseRules, AFileHasAtMost300Lines) {
   EXPECT_THAT(wrong, IsEmpty());
 }
 
+/// By the layout that clang-format gives: a function begins at the margin and ends with a brace that stands there
+/// alone.
+TEST(HouseRules, AFunctionHasAtMost40Lines) {
+  const std::regex other("^(namespace|class|struct|enum|union|extern)\\b");
+  std::vector<std::string> wrong;
+  std::size_t functions = 0;
+  for (const std::string& path : all_sources()) {
+    std::istringstream lines(code_only(text_of(path)));
+    int number = 0;
+    int began = 0;
+    std::string head;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      if (line == "}" && !head.empty()) {
+        ++functions;
+        if (number - began - 1 > 40) wrong.push_back(fmt::format("{}:{}: {} lines", path, began, number - began - 1));
+      }
+      if (line.empty() || line[0] == ' ' || line[0] == '#') continue;
+      head = line[0] == '}' || std::regex_search(line, other) ? "" : line;
+      began = number;
+    }
+  }
+  EXPECT_THAT(wrong, IsEmpty());
+  EXPECT_GT(functions, 500U);
+}
+
 TEST(HouseRules, TheLibraryNeverPrints) {
   EXPECT_THAT(in_the_library(std::regex(R"(std::(cout|cerr|clog)|\b(printf|fprintf|puts|perror)\s*\(|fmt::print)")),
               IsEmpty());

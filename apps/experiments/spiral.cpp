@@ -37,17 +37,21 @@ int least_sheets(const Map& map) {
   return *std::min_element(sheets.begin(), sheets.end());
 }
 
-/// Robots drive their laps; of their sightings only the first after the given number of laps of each is heard.
-Result<Spirals> drive(const std::string& world_name, int robots, int laps, int heard_after, std::uint64_t seed,
-                      const MapperOptions& mapper) {
-  const Result<World> world = load_world(world_name);
-  if (!world) return tl::unexpected(world.error());
+SimulationOptions lapping(int robots, int laps, std::uint64_t seed) {
   SimulationOptions options;
   options.robots = robots;
   options.laps = laps;
   options.seed = seed;
   options.alternate = true;
   options.sightings = robots > 1;
+  return options;
+}
+
+/// Robots drive their laps; of their sightings only the first after the given number of laps of each is heard.
+Result<Spirals> drive(const std::string& world_name, int robots, int laps, int heard_after, std::uint64_t seed,
+                      const MapperOptions& mapper) {
+  const Result<World> world = load_world(world_name);
+  if (!world) return tl::unexpected(world.error());
   const auto count = static_cast<std::size_t>(robots);
   Spirals s{{Mapper(mapper), {}, 0}, std::vector<std::vector<int>>(count), LapCosts(count), 0, 0};
   bool heard = false;
@@ -77,7 +81,7 @@ Result<Spirals> drive(const std::string& world_name, int robots, int laps, int h
     costs.resize(std::max(costs.size(), static_cast<std::size_t>(simulated.lap) + 1));
     costs[static_cast<std::size_t>(simulated.lap)] += cpu_s;
   };
-  Result<SimulatedRun> run = map_simulation(*world, options, mapper, observe, hears);
+  Result<SimulatedRun> run = map_simulation(*world, lapping(robots, laps, seed), mapper, observe, hears);
   if (!run) return tl::unexpected(run.error());
   s.run = std::move(*run);
   return s;

@@ -76,18 +76,36 @@ void pair_points(const Reference& reference, const ScanPoints& scan, const Pose2
   pairing.pad();
 }
 
+constexpr std::size_t kLanes = Pairing::kLanes;
+/// What is summed over the pairs, in lanes.
+enum Summand : std::uint8_t { xx, xy, yy, xt, yt, tt, gx, gy, gt, squares, weights, inliers, kSummands };
+
+/// The sums over the lanes.
+Sums gather(const float (&lanes)[kSummands][kLanes]) {
+  std::array<double, kSummands> total{};
+  for (std::size_t k = 0; k < kSummands; ++k) {
+    for (std::size_t l = 0; l < kLanes; ++l) total[k] += static_cast<double>(lanes[k][l]);
+  }
+  Sums result;
+  result.information << total[xx], total[xy], total[xt], total[xy], total[yy], total[yt], total[xt], total[yt],
+      total[tt];
+  result.gradient << total[gx], total[gy], total[gt];
+  result.squares = total[squares];
+  result.weights = total[weights];
+  result.inliers = static_cast<int>(total[inliers]);
+  return result;
+}
+
 /// Linearises the paired residuals at T (M step, IV-A step 4). Lane by lane and then over the lanes: a fixed tree,
 /// whatever the compiler makes of it.
 HELICOID_WIDE_LANES
 Sums sum_residuals(const Pairing& pairs, const Pose2& T, float robust_scale) {
-  constexpr std::size_t kLanes = Pairing::kLanes;
-  enum : std::size_t { xx, xy, yy, xt, yt, tt, gx, gy, gt, squares, weights, inliers, kSums };
   const auto c = static_cast<float>(std::cos(T.yaw));
   const auto s = static_cast<float>(std::sin(T.yaw));
   const auto tx = static_cast<float>(T.x);
   const auto ty = static_cast<float>(T.y);
   const float inverse_square_scale = 1 / (robust_scale * robust_scale);
-  float sums[kSums][kLanes] = {};
+  float sums[kSummands][kLanes] = {};
   for (std::size_t i = 0; i < pairs.size; i += kLanes) {
     for (std::size_t l = 0; l < kLanes; ++l) {
       const float lx = c * pairs.px[i + l] - s * pairs.py[i + l];
@@ -115,18 +133,7 @@ Sums sum_residuals(const Pairing& pairs, const Pose2& T, float robust_scale) {
       sums[inliers][l] += pairs.weight[i + l] > 0 && robust > 0.2F ? 1.0F : 0.0F;
     }
   }
-  std::array<double, kSums> total{};
-  for (std::size_t k = 0; k < kSums; ++k) {
-    for (std::size_t l = 0; l < kLanes; ++l) total[k] += static_cast<double>(sums[k][l]);
-  }
-  Sums result;
-  result.information << total[xx], total[xy], total[xt], total[xy], total[yy], total[yt], total[xt], total[yt],
-      total[tt];
-  result.gradient << total[gx], total[gy], total[gt];
-  result.squares = total[squares];
-  result.weights = total[weights];
-  result.inliers = static_cast<int>(total[inliers]);
-  return result;
+  return gather(sums);
 }
 
 Vector3d difference(const Pose2& a, const Pose2& b) {
@@ -143,6 +150,62 @@ bool is_degenerate(const Matrix3d& information, double kappa) {
   const double smallest = 0.5 * (trace - spread) / kappa;
   return smallest < 1 / (kOpen * kOpen);
 }
+
+struct Fitted {
+  Pose2 T;
+  Sums sums;  ///< where they were last taken
+};
+
+/// M step (IV-A step 4, eq. 13): from T the pose that fits the pairs and the prior. `against_prior`: information of one
+/// beam, correlations divided out.
+Fitted fit_pairs(const Pairing& pairs, Pose2 T, double robust_scale, const PosePrior& prior, double against_prior,
+                 double prior_freedom) {
+  Sums sums;
+  for (int inner = 0; inner < 2; ++inner) {
+    sums = sum_residuals(pairs, T, static_cast<float>(robust_scale));
+    const Vector3d off = difference(T, prior.T_reference_scan);
+    // Odometry has heavy tails: a prior that the beams contradict fades (Student's t).
+    const double believed = prior_freedom / (prior_freedom + off.dot(prior.information * off));
+    const Matrix3d H = against_prior * sums.information + believed * prior.information;
+    const Vector3d g = against_prior * sums.gradient + believed * prior.information * off;
+    const Vector3d step = -(H + 1e-9 * H.trace() * Matrix3d::Identity()).ldlt().solve(g);
+    T = Pose2::from_vector(T.vector() + step);
+    if (step.head<2>().norm() < 5e-4 && std::abs(step[2]) < 2e-4) break;
+  }
+  return {T, sums};
+}
+
+/// Which points are paired and how far: few and far at first, then near, then all until they settle.
+class Rounds {
+ public:
+  explicit Rounds(const AlignOptions& options) : options_(options), gate_(options.first_gate) {}
+  [[nodiscard]] double gate() const { return gate_; }
+  [[nodiscard]] std::size_t stride() const { return stride_; }
+
+  void begin(int iteration) {
+    last_chance_ = iteration >= options_.max_iterations - 3;
+    if (last_chance_) stride_ = 1;
+  }
+  /// True if that was the last one; `moved`: by how much the round moved the pose.
+  bool end(const Vector3d& moved) {
+    const bool small = moved.head<2>().norm() < 0.25 * gate_ && std::abs(moved[2]) < 0.05 * gate_;
+    const bool tiny = moved.head<2>().norm() < 5e-3 && std::abs(moved[2]) < 1.5e-3;
+    const bool done = stride_ == 1 && gate_ <= options_.last_gate && (++full_rounds_ >= 4 || tiny);
+    if (gate_ > options_.last_gate) {
+      if (small || last_chance_) gate_ = std::max(options_.last_gate, 0.4 * gate_);
+    } else if (small) {
+      stride_ = 1;
+    }
+    return done;
+  }
+
+ private:
+  const AlignOptions& options_;
+  double gate_;
+  std::size_t stride_ = kFirstStride;
+  int full_rounds_ = 0;
+  bool last_chance_ = false;
+};
 
 }  // namespace
 
@@ -168,43 +231,21 @@ Alignment align_scan(const Reference& reference, const ScanPoints& scan, const P
   if (reference.empty()) return result;
 
   const double beam_information = 1 / (options.range_sigma * options.range_sigma);
-  const double against_prior = beam_information / options.kappa;
   const auto bias_share = static_cast<float>(options.incidence_bias / options.range_sigma);
-  double gate = options.first_gate;
-  std::size_t stride = kFirstStride;
-  int full_rounds = 0;
+  Rounds rounds(options);
   Pairing pairs;
-  Sums sums;
-  Pose2 T = prior.T_reference_scan;
+  Fitted fitted{prior.T_reference_scan, {}};
   for (bool done = false; !done;) {
     ++result.iterations;
-    const bool last_chance = result.iterations >= options.max_iterations - 3;
-    if (last_chance) stride = 1;
-    pair_points(reference, scan, T, static_cast<float>(gate), stride, bias_share, pairs);
-    const double scale = std::max(options.robust_scale, 0.33 * gate);
-    const Pose2 T_paired = T;
-    for (int inner = 0; inner < 2; ++inner) {
-      sums = sum_residuals(pairs, T, static_cast<float>(scale));
-      const Vector3d off = difference(T, prior.T_reference_scan);
-      // Odometry has heavy tails: a prior that the beams contradict fades (Student's t).
-      const double believed = options.prior_freedom / (options.prior_freedom + off.dot(prior.information * off));
-      const Matrix3d H = against_prior * sums.information + believed * prior.information;
-      const Vector3d g = against_prior * sums.gradient + believed * prior.information * off;
-      const Vector3d step = -(H + 1e-9 * H.trace() * Matrix3d::Identity()).ldlt().solve(g);
-      T = Pose2::from_vector(T.vector() + step);
-      if (step.head<2>().norm() < 5e-4 && std::abs(step[2]) < 2e-4) break;
-    }
-    const Vector3d moved = difference(T, T_paired);
-    const bool small = moved.head<2>().norm() < 0.25 * gate && std::abs(moved[2]) < 0.05 * gate;
-    const bool tiny = moved.head<2>().norm() < 5e-3 && std::abs(moved[2]) < 1.5e-3;
-    done = stride == 1 && gate <= options.last_gate && (++full_rounds >= 4 || tiny);
-    if (gate > options.last_gate) {
-      if (small || last_chance) gate = std::max(options.last_gate, 0.4 * gate);
-    } else if (small) {
-      stride = 1;
-    }
+    rounds.begin(result.iterations);
+    const Pose2 T_paired = fitted.T;
+    pair_points(reference, scan, T_paired, static_cast<float>(rounds.gate()), rounds.stride(), bias_share, pairs);
+    fitted = fit_pairs(pairs, T_paired, std::max(options.robust_scale, 0.33 * rounds.gate()), prior,
+                       beam_information / options.kappa, options.prior_freedom);
+    done = rounds.end(difference(fitted.T, T_paired));
   }
-  result.T_reference_scan = T;
+  const Sums& sums = fitted.sums;
+  result.T_reference_scan = fitted.T;
   result.information = beam_information * sums.information;
   result.inlier_share = pairs.candidates > 0 ? static_cast<double>(sums.inliers) / pairs.candidates : 0;
   result.rms = sums.weights > 0 ? std::sqrt(sums.squares / sums.weights) : 0;
