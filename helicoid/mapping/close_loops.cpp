@@ -23,9 +23,9 @@ bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along)
   return false;
 }
 
-/// Step 3 of IV-B for one patch of the queue.
-std::vector<PatchId> induce_at(MapInProgress& progress, PatchId b, std::span<const double> along,
-                               const MapperOptions& options) {
+/// Step 3 of IV-B for one patch of the queue: nothing if it was related to nothing.
+RelatedPatch induce_at(MapInProgress& progress, PatchId b, std::span<const double> along,
+                       const MapperOptions& options) {
   if (!has_untied_ground(progress.map, b, along)) return {};
   LocalMap local = find_local_map(progress.map, progress.graph, b, options);
   std::erase_if(local, [&](const LocalPatch& p) {
@@ -44,11 +44,40 @@ std::vector<PatchId> tie(MapInProgress& progress, const Hypothesis& h, const Map
   std::erase_if(local, [&](const LocalPatch& p) { return p.patch.value >= h.b.value; });
   const std::vector<LocalPatch> views =
       select_views(progress.map, local, progress.map.patch(h.b).points, h.T_a_b.T_a_b, h.a, options.relation_views);
-  std::vector<PatchId> related =
+  const RelatedPatch found =
       relate_to(progress, h.b, views, {h.T_a_b.T_a_b, h.T_a_b.covariance.inverse()}, RelationKind::closure);
-  related.push_back(h.b);
+  std::vector<PatchId> related{h.b};
+  for (const NewRelation& r : found.relations) related.push_back(r.patch);
   return related;
 }
+
+/// As the queue moves along a way, what was related moves to where it was found, and draws along what is reached next:
+/// else a spiral's turns would soon lie too far from one another to be matched before the next fit.
+class Zipper {
+ public:
+  explicit Zipper(MapInProgress& progress) : progress_(progress), moved_(progress.map.patch_count(), false) {}
+
+  /// Puts b where a relation to a patch that was moved says.
+  void draw_along(PatchId b) {
+    if (moved_[b.index()]) return;
+    const Map& map = progress_.map;
+    for (const RelationId id : map.relations_of(b)) {
+      const Relation& r = map.relation(id);
+      const PatchId other = r.a == b ? r.b : r.a;
+      if (r.kind == RelationKind::odometry || !moved_[other.index()]) continue;
+      move(b, map.T_plane_patch(other) * (r.a == other ? r.T_a_b : r.T_a_b.inverse()));
+      return;
+    }
+  }
+  void move(PatchId b, const Pose2& T_plane_b) {
+    progress_.editor.set_pose(b, T_plane_b);
+    moved_[b.index()] = true;
+  }
+
+ private:
+  MapInProgress& progress_;
+  std::vector<bool> moved_;
+};
 
 /// Eq. 16's queue, from these patches on. `along`: how far along its robot's way each patch was kept, metres: one patch
 /// of a stretch is enough to relate to. The patches that were newly related; none if nothing was induced.
@@ -69,15 +98,18 @@ std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> be
     }
   };
   for (const PatchId id : begin) push_related(id);
+  Zipper zipper(progress);
   std::vector<PatchId> touched;
   while (!queue.empty()) {
     const PatchId b = queue.front();
     queue.pop_front();
-    const std::vector<PatchId> related = induce_at(progress, b, along, options);
-    if (related.empty()) continue;
+    zipper.draw_along(b);
+    const RelatedPatch found = induce_at(progress, b, along, options);
+    if (found.relations.empty()) continue;
+    zipper.move(b, progress.map.T_plane_patch(b) * found.T_anchor_patch);
     touched.push_back(b);
     push_related(b);
-    for (const PatchId id : related) push_related(id);
+    for (const NewRelation& r : found.relations) push_related(r.patch);
   }
   return touched;
 }

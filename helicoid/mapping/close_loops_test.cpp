@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "helicoid/manifold/confidence.hpp"
 #include "helicoid/manifold/content_hash.hpp"
 #include "helicoid/mapping/mapper.hpp"
 #include "tests/known_building.hpp"
+#include "tests/synthetic_room.hpp"
 
 namespace helicoid {
 namespace {
@@ -80,6 +82,69 @@ TEST(Loops, ASecondFinishInducesNothing) {
   const auto before = content_hash(closed.map());
   closed.finish();
   EXPECT_EQ(content_hash(closed.map()), before);
+}
+
+/// Twice along a corridor; the second time every step is a little bent, so that the far end lies metres beside the
+/// first one's, and only the near end is tied.
+struct SecondWay {
+  static constexpr int kLength = 60;
+  static constexpr double kBend = 0.01;  ///< of each step, radians
+  synthetic::Builder builder;
+  std::vector<double> along;
+
+  SecondWay() {
+    std::vector<synthetic::Wall> walls = synthetic::rectangle(0, 0, kLength + 6, 3);
+    for (int x = 2; x < kLength + 5; x += 3) {
+      synthetic::append(walls, synthetic::rectangle(x, 0, x + 0.4, 0.3));
+      synthetic::append(walls, synthetic::rectangle(x + 1.3, 2.6, x + 1.9, 3));
+    }
+    Pose2 placed;
+    for (int i = 0; i < 2 * kLength; ++i) {
+      const Pose2 taken{1.0 + i % kLength, 1.5, 0};
+      placed = i < kLength || i == kLength ? taken : placed * Pose2{1, 0, kBend};
+      builder.add(walls, taken, placed);
+      along.push_back(i + (i < kLength ? 0 : 20));
+      if (i > 0) relate(i - 1, i, i == kLength ? 1.0 : 0.01);
+    }
+  }
+  void relate(int a, int b, double sigma) {
+    Relation relation;
+    relation.a = make_id<PatchId>(static_cast<std::size_t>(a));
+    relation.b = make_id<PatchId>(static_cast<std::size_t>(b));
+    relation.kind = RelationKind::chain;
+    relation.T_a_b = builder.map.T_plane_patch(relation.a).inverse() * builder.map.T_plane_patch(relation.b);
+    const double information = 1 / (sigma * sigma);
+    relation.form = pose_pose_form(relation.T_a_b, Vector3d(information, information, 4 * information).asDiagonal());
+    MapEditor(builder.map).add_relation(relation);
+  }
+  [[nodiscard]] double farthest_from_first() const {
+    double farthest = 0;
+    for (std::uint32_t i = 0; i < kLength; ++i) {
+      const Pose2 off =
+          builder.map.T_plane_patch(PatchId{i}).inverse() * builder.map.T_plane_patch(PatchId{i + kLength});
+      farthest = std::max(farthest, off.distance());
+    }
+    return farthest;
+  }
+};
+
+TEST(Loops, AWayThatIsTiedAtOneEndIsTiedAllAlong) {
+  SecondWay second;
+  ASSERT_GT(second.farthest_from_first(), 1.0);
+  Map& map = second.builder.map;
+  MapEditor editor(map);
+  InformationGraph graph = information_graph(map);
+  MapInProgress progress{map, editor, graph};
+  LoopCloser closer{MapperOptions{}};
+  closer.follow_ways(map);
+  Hypothesis near_end;
+  near_end.a = PatchId{0};
+  near_end.b = PatchId{SecondWay::kLength};
+  near_end.T_a_b.covariance = 1e-3 * Matrix3d::Identity();
+  closer.record(near_end);
+  const std::size_t entries[] = {0};
+  act_on(progress, closer, entries, {});
+  EXPECT_LT(second.farthest_from_first(), 0.05);
 }
 
 }  // namespace

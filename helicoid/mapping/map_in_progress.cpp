@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "helicoid/manifold/confidence.hpp"
-#include "helicoid/mapping/relate.hpp"
 
 namespace helicoid {
 
@@ -34,17 +33,15 @@ bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<cons
   });
 }
 
-std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views,
-                               const PosePrior& prior, RelationKind kind) {
+RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views, const PosePrior& prior,
+                       RelationKind kind) {
   RelateOptions options;
   options.min_correspondences = kMinCorrespondences;
-  std::vector<PatchId> related;
-  const RelatedPatch found = relate(progress.map, views, progress.map.patch(b), prior, options);
+  RelatedPatch found = relate(progress.map, views, progress.map.patch(b), prior, options);
   for (const NewRelation& r : found.relations) {
     progress.add({r.patch, b, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
-    related.push_back(r.patch);
   }
-  return related;
+  return found;
 }
 
 }  // namespace helicoid

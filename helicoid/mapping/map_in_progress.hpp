@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "helicoid/align/align_scan.hpp"
 #include "helicoid/manifold/map_editor.hpp"
-#include "helicoid/mapping/local_map.hpp"
+#include "helicoid/mapping/relate.hpp"
 
 namespace helicoid {
 
@@ -25,8 +24,8 @@ inline constexpr double kTieReach = 3;
 /// to. `along`: how far along its robot's way each patch was kept, metres.
 [[nodiscard]] bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along);
 
-/// Relates a patch to the views, all of them older. Those that it was related to.
-std::vector<PatchId> relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views,
-                               const PosePrior& prior, RelationKind kind);
+/// Relates a patch to the views, all of them older, and adds the relations.
+RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views, const PosePrior& prior,
+                       RelationKind kind);
 
 }  // namespace helicoid

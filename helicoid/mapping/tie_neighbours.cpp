@@ -57,7 +57,7 @@ bool tie_patch(MapInProgress& progress, PatchId b, const LocalMap& known) {
   const Matrix3d open = Vector3d(1e2, 1e2, 1e3).asDiagonal();
   const Alignment found = align_scan(reference, patch.points, {Pose2{}, open}, align);
   if (!found.usable()) return false;
-  return !relate_to(progress, b, views, {found.T_reference_scan, open}, RelationKind::overlap).empty();
+  return !relate_to(progress, b, views, {found.T_reference_scan, open}, RelationKind::overlap).relations.empty();
 }
 
 int tie_island(MapInProgress& progress, const Island& island, std::span<const double> along,
