@@ -87,13 +87,15 @@ struct Builder {
   }
   PatchId add(std::span<const Wall> walls, const Pose2& pose) { return add(walls, pose, pose); }
 
-  void relate(PatchId a, PatchId b, RelationKind kind = RelationKind::overlap) {
+  /// `information` of x, y and yaw.
+  void relate(PatchId a, PatchId b, RelationKind kind = RelationKind::overlap,
+              const Vector3d& information = {1e4, 2e4, 3e4}) {
     Relation relation;
     relation.a = std::min(a, b);
     relation.b = std::max(a, b);
     relation.kind = kind;
     relation.T_a_b = map.T_plane_patch(relation.a).inverse() * map.T_plane_patch(relation.b);
-    relation.form = pose_pose_form(relation.T_a_b, Vector3d(1e4, 2e4, 3e4).asDiagonal());
+    relation.form = pose_pose_form(relation.T_a_b, information.asDiagonal());
     relation.radius = 0.1;
     relation.correspondences = 57;
     MapEditor(map).add_relation(relation);

@@ -1,10 +1,10 @@
 // Does the truth lie where the map says that it may?
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <filesystem>
 #include <unordered_map>
 
 #include "apps/experiments/list.hpp"
+#include "apps/experiments/recorded_data.hpp"
 #include "apps/map_run.hpp"
 #include "apps/simulated_run.hpp"
 #include "helicoid/fit/relative_covariance.hpp"
@@ -161,13 +161,9 @@ std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
     cases.push_back({world, true, "", [world](std::uint64_t seed) { return run_simulated(world, seed); }});
   }
   for (const char* name : {"intel", "fr079"}) {
-    const std::string folder = options.data + "/" + name;
-    std::error_code error;
-    ExperimentCase c{name, false, "", [=](std::uint64_t) { return run_recorded(name, folder); }};
-    if (options.data.empty() || !std::filesystem::exists(folder, error)) {
-      c.missing = fmt::format("the recorded log {} is not there; --data names its folder", name);
-    }
-    cases.push_back(std::move(c));
+    const std::string folder = fmt::format("{}/{}", options.data, name);
+    cases.push_back(
+        {name, false, missing_data(options, name), [=](std::uint64_t) { return run_recorded(name, folder); }});
   }
   return cases;
 }

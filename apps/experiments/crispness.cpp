@@ -1,9 +1,8 @@
 // Is any wall drawn twice on one sheet?
 #include "helicoid/charts/crispness.hpp"
 
-#include <filesystem>
-
 #include "apps/experiments/list.hpp"
+#include "apps/experiments/recorded_data.hpp"
 #include "apps/map_run.hpp"
 #include "apps/simulated_run.hpp"
 #include "helicoid/manifold/sheets.hpp"
@@ -43,14 +42,10 @@ Outcome measure(const Map& map) {
           {}};
 }
 
-ExperimentCase recorded(const std::string& name, const std::string& data) {
-  const std::string log = data + "/" + name + "/" + name + ".clf.gz";
-  std::error_code error;
-  ExperimentCase c{name, false, "", {}};
-  if (data.empty() || !std::filesystem::exists(log, error)) {
-    c.missing = fmt::format("the recorded log {}/{}.clf.gz is not there; --data names its folder", name, name);
-  }
-  c.run = [name, log](std::uint64_t) -> Result<Outcome> {
+ExperimentCase recorded(const std::string& name, const ExperimentOptions& options) {
+  const std::string log = fmt::format("{}/{}.clf.gz", name, name);
+  ExperimentCase c{name, false, missing_data(options, log), {}};
+  c.run = [name, log = options.data + "/" + log](std::uint64_t) -> Result<Outcome> {
     MapJob job;
     job.robots = {{name, {log}}};
     const Result<MapRun> run = run_map(job);
@@ -74,7 +69,7 @@ ExperimentCase simulated(const std::string& world_name) {
 
 std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
   std::vector<ExperimentCase> cases;
-  for (const char* name : {"intel", "fr079", "csail"}) cases.push_back(recorded(name, options.data));
+  for (const char* name : {"intel", "fr079", "csail"}) cases.push_back(recorded(name, options));
   for (const std::string& name : shipped_worlds()) cases.push_back(simulated(name));
   return cases;
 }

@@ -1,9 +1,9 @@
 // Does the robust fit let wrong loop closures go?
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include "apps/experiments/list.hpp"
+#include "apps/experiments/recorded_data.hpp"
 #include "helicoid/base/random.hpp"
 #include "helicoid/fit/initial_guess.hpp"
 #include "helicoid/fit/robust_fit.hpp"
@@ -113,14 +113,11 @@ std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
                      [group](std::uint64_t seed) -> Result<Outcome> { return measure(walk(seed), seed, group); }});
   }
   for (const char* name : {"manhattan", "intel"}) {
-    const std::string path = options.data + "/posegraphs/" + name + ".g2o.gz";
-    std::error_code error;
-    const bool there = !options.data.empty() && std::filesystem::exists(path, error);
+    const std::string graph = fmt::format("posegraphs/{}.g2o.gz", name);
     for (const std::uint32_t group : {1U, 10U}) {
-      ExperimentCase c{fmt::format("{} {}", name, group == 1 ? "random" : "grouped"), true, "", {}};
-      if (!there)
-        c.missing = fmt::format("the recorded graph posegraphs/{}.g2o.gz is not there; --data names its folder", name);
-      c.run = [path, group](std::uint64_t seed) -> Result<Outcome> {
+      ExperimentCase c{
+          fmt::format("{} {}", name, group == 1 ? "random" : "grouped"), true, missing_data(options, graph), {}};
+      c.run = [path = options.data + "/" + graph, group](std::uint64_t seed) -> Result<Outcome> {
         const Result<RelationGraph> clean = read(path);
         if (!clean) return tl::unexpected(clean.error());
         return measure(*clean, seed, group);

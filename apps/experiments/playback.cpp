@@ -1,8 +1,8 @@
 // Does the incremental fit keep up with a growing graph?
 #include <algorithm>
-#include <filesystem>
 
 #include "apps/experiments/list.hpp"
+#include "apps/experiments/recorded_data.hpp"
 #include "helicoid/fit/cpu_clock.hpp"
 #include "helicoid/fit/fit_from_start.hpp"
 #include "helicoid/fit/incremental_fit.hpp"
@@ -122,12 +122,10 @@ std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
   const std::pair<const char*, double> graphs[] = {{"manhattan", 2.0}, {"city10000", 20.0}};
   for (const auto& [name, allowed_s] : graphs) {
     if (options.quick && cases.size() == 1) break;
-    const std::string path = options.data + "/posegraphs/" + name + ".g2o.gz";
-    std::error_code error;
-    ExperimentCase c{name, false, "", [path, allowed = allowed_s](std::uint64_t) { return measure(path, allowed); }};
-    if (options.data.empty() || !std::filesystem::exists(path, error))
-      c.missing = fmt::format("the recorded graph posegraphs/{}.g2o.gz is not there; --data names its folder", name);
-    cases.push_back(std::move(c));
+    const std::string graph = fmt::format("posegraphs/{}.g2o.gz", name);
+    cases.push_back(
+        {name, false, missing_data(options, graph),
+         [path = options.data + "/" + graph, allowed = allowed_s](std::uint64_t) { return measure(path, allowed); }});
   }
   return cases;
 }

@@ -1,8 +1,8 @@
 // Do the known relations of recorded logs fit the scans that they relate, and does the map?
-#include <filesystem>
 #include <unordered_map>
 
 #include "apps/experiments/list.hpp"
+#include "apps/experiments/recorded_data.hpp"
 #include "apps/map_run.hpp"
 #include "helicoid/align/match_pair.hpp"
 #include "helicoid/io/relations_file.hpp"
@@ -122,12 +122,7 @@ std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
   std::vector<ExperimentCase> cases;
   for (const char* name : {"intel", "fr079"}) {
     const std::string folder = fmt::format("{}/{}", options.data, name);
-    std::error_code error;
-    ExperimentCase c{name, false, "", [=](std::uint64_t) { return compare(name, folder); }};
-    if (options.data.empty() || !std::filesystem::exists(folder, error)) {
-      c.missing = fmt::format("the recorded log {} is not there; --data names its folder", name);
-    }
-    cases.push_back(std::move(c));
+    cases.push_back({name, false, missing_data(options, name), [=](std::uint64_t) { return compare(name, folder); }});
   }
   return cases;
 }

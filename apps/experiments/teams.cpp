@@ -1,8 +1,8 @@
 // Do robots that start anywhere end on one map, as good as one robot's?
 #include <cmath>
-#include <filesystem>
 
 #include "apps/experiments/list.hpp"
+#include "apps/experiments/recorded_data.hpp"
 #include "apps/map_run.hpp"
 #include "apps/simulated_run.hpp"
 #include "helicoid/io/relations_file.hpp"
@@ -110,14 +110,9 @@ std::vector<ExperimentCase> list_cases(const ExperimentOptions& options) {
   std::vector<ExperimentCase> cases;
   for (const Team& team : kTeams) {
     for (const bool sightings : {true, false}) {
-      ExperimentCase c{fmt::format("{}-{}", team.name, sightings ? "sightings" : "evidence"), false, "",
-                       [=, data = options.data](std::uint64_t) { return run_team(team, data, sightings); }};
-      std::error_code error;
-      if (options.data.empty() || !std::filesystem::exists(options.data + "/teams/" + team.name, error)) {
-        c.missing =
-            fmt::format("the recorded team {} is not there; --data names the folder that holds teams/", team.name);
-      }
-      cases.push_back(std::move(c));
+      cases.push_back({fmt::format("{}-{}", team.name, sightings ? "sightings" : "evidence"), false,
+                       missing_data(options, fmt::format("teams/{}", team.name)),
+                       [=, data = options.data](std::uint64_t) { return run_team(team, data, sightings); }});
     }
   }
   return cases;

@@ -107,15 +107,9 @@ struct SecondWay {
       if (i > 0) relate(i - 1, i, i == kLength ? 1.0 : 0.01);
     }
   }
-  void relate(int a, int b, double sigma) {
-    Relation relation;
-    relation.a = make_id<PatchId>(static_cast<std::size_t>(a));
-    relation.b = make_id<PatchId>(static_cast<std::size_t>(b));
-    relation.kind = RelationKind::chain;
-    relation.T_a_b = builder.map.T_plane_patch(relation.a).inverse() * builder.map.T_plane_patch(relation.b);
-    const double information = 1 / (sigma * sigma);
-    relation.form = pose_pose_form(relation.T_a_b, Vector3d(information, information, 4 * information).asDiagonal());
-    MapEditor(builder.map).add_relation(relation);
+  void relate(std::uint32_t a, std::uint32_t b, double sigma) {
+    const double position = 1 / (sigma * sigma);
+    builder.relate(PatchId{a}, PatchId{b}, RelationKind::chain, {position, position, 4 * position});
   }
   [[nodiscard]] double farthest_from_first() const {
     double farthest = 0;

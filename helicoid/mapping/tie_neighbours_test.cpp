@@ -28,15 +28,9 @@ struct RoundTrip {
       if (i > 0) relate(i - 1, i, sigma);
     }
   }
-  void relate(int a, int b, double sigma) {
-    Relation relation;
-    relation.a = make_id<PatchId>(static_cast<std::size_t>(a));
-    relation.b = make_id<PatchId>(static_cast<std::size_t>(b));
-    relation.kind = RelationKind::odometry;
-    relation.T_a_b = builder.map.T_plane_patch(relation.a).inverse() * builder.map.T_plane_patch(relation.b);
+  void relate(std::uint32_t a, std::uint32_t b, double sigma) {
     const double step = (kPatches - 1) / (sigma * sigma);
-    relation.form = pose_pose_form(relation.T_a_b, Vector3d(step, step, 100 * step).asDiagonal());
-    MapEditor(builder.map).add_relation(relation);
+    builder.relate(PatchId{a}, PatchId{b}, RelationKind::odometry, {step, step, 100 * step});
   }
   [[nodiscard]] Pose2 first_to_last() const {
     return builder.map.T_plane_patch(PatchId{0}).inverse() * builder.map.T_plane_patch(PatchId{kPatches - 1});
