@@ -141,14 +141,15 @@ class FundamentalGroups {
   std::vector<std::int32_t> rows_;      ///< of the column at hand
 };
 
-/// Is one front with some empty blocks cheaper than two? (Ashcraft and Grimes 1989.) Tiny fronts cost their call.
+/// Is one front with some empty blocks cheaper than two? (Ashcraft and Grimes 1989.) Tiny fronts cost their call. Few
+/// empty blocks are cheap in memory, too: twice or three times as many made no graph faster.
 bool is_worth_merging(const Group& child, const Group& parent, std::int64_t zeros) {
   const auto columns = static_cast<std::int64_t>(child.columns.size() + parent.columns.size());
   const auto below = static_cast<std::int64_t>(parent.rows.size());
   const std::int64_t stored = columns * (columns + 1) / 2 + columns * below;
-  if (columns <= 4) return 2 * zeros <= stored;
-  if (columns <= 16) return 5 * zeros <= stored;
-  return 20 * zeros <= stored;
+  if (columns <= 4) return 6 * zeros <= stored;
+  if (columns <= 16) return 16 * zeros <= stored;
+  return 64 * zeros <= stored;
 }
 
 /// Merges groups into their parents where that pays. Groups stand in postorder, so that columns come out sorted by it.
