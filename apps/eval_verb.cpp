@@ -7,10 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/evaluated_relations.hpp"
 #include "apps/verb.hpp"
-#include "helicoid/eval/relation_error.hpp"
 #include "helicoid/eval/trajectory_error.hpp"
-#include "helicoid/io/relations_file.hpp"
 #include "helicoid/io/trajectory.hpp"
 
 namespace helicoid {
@@ -102,14 +101,10 @@ int score_relations(const EvalArguments& a, const std::vector<EvaluatedTrajector
   for (const Skipped& s : file->skipped) {
     report_warning(fmt::format("{} x {}, first at {}", s.count, s.reason, s.first));
   }
-  std::vector<EvaluatedRelation> relations;
-  for (const TrueRelation& r : file->relations) {
-    relations.push_back({r.robot_a, r.stamp_a, r.robot_b, r.stamp_b, r.T_a_b});
-  }
   RelationErrorOptions options;
   if (a.max_gap > 0) options.max_gap = a.max_gap;
   options.between_robots = a.between_robots;
-  const RelationError e = relation_error(trajectories, relations, options);
+  const RelationError e = relation_error(trajectories, to_evaluate(*file), options);
   if (a.json) {
     const Json json = {{"relations", e.relations},
                        {"scored", e.scored},

@@ -2,8 +2,8 @@
 #include <filesystem>
 
 #include "apps/bench.hpp"
+#include "apps/evaluated_relations.hpp"
 #include "apps/simulated_run.hpp"
-#include "helicoid/io/relations_file.hpp"
 
 namespace helicoid {
 
@@ -15,15 +15,6 @@ double local_error(std::span<const EvaluatedTrajectory> poses, std::span<const E
   RelationErrorOptions options;
   options.max_gap = kLocalGap;
   return relation_error(poses, relations, options).translation_m.mean;
-}
-
-Result<std::vector<EvaluatedRelation>> load_relations(const std::string& path) {
-  const Result<RelationsFile> file = read_relations(path);
-  if (!file) return tl::unexpected(file.error());
-  std::vector<EvaluatedRelation> relations;
-  for (const TrueRelation& r : file->relations)
-    relations.push_back({r.robot_a, r.stamp_a, r.robot_b, r.stamp_b, r.T_a_b});
-  return relations;
 }
 
 /// The odometry of a log's scans, and what reading it costs.
@@ -61,7 +52,7 @@ Result<BenchRow> map_recorded(const std::string& name, const std::string& log, c
   const std::vector<RobotLogs> robots{{name, {log}}};
   std::vector<EvaluatedRelation> relations;
   if (!truth.empty()) {
-    auto read = load_relations(truth);
+    auto read = read_evaluated(truth);
     if (!read) return tl::unexpected(read.error());
     relations = std::move(*read);
   }

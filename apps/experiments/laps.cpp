@@ -35,9 +35,9 @@ struct LapsResult {
 };
 
 LapRecord look(const Map& map) {
-  // A simulated run keeps the true pose of every scan for the judge: a robot that maps does not.
   // What is free again is not held, though the allocator may not have given it back yet.
   malloc_trim(0);
+  // A simulated run keeps the true pose of every scan for the judge: a robot that maps does not.
   const std::size_t truth_bytes = map.robots()[0].trajectory.size() * (sizeof(double) + sizeof(Pose2));
   return {static_cast<double>(map.patch_count()), static_cast<double>(map.relations().size()),
           static_cast<double>(map_bytes(map)), static_cast<double>(resident_bytes() - truth_bytes)};

@@ -1,12 +1,12 @@
 // Do the known relations of recorded logs fit the scans that they relate, and does the map?
-#include <unordered_map>
-
 #include "apps/experiments/list.hpp"
 #include "apps/experiments/recorded_data.hpp"
 #include "apps/map_run.hpp"
-#include "helicoid/align/match_pair.hpp"
+#include "apps/simulated_run.hpp"
+#include "helicoid/eval/stamp_lookup.hpp"
 #include "helicoid/io/relations_file.hpp"
 #include "helicoid/manifold/seen_free.hpp"
+#include "helicoid/mapping/relate.hpp"
 
 namespace helicoid {
 
@@ -24,37 +24,24 @@ struct Agreement {
 };
 
 Agreement agreement(const Patch& a, const Patch& b, const Pose2& T_a_b) {
-  MatchPairOptions options;
-  options.incidence_bias = b.laser.incidence_bias;
-  const PairMatch match = match_pair({&a.points, &a.laser, a.scan.T_robot_laser}, b.points, T_a_b, options);
-  return {match.correspondences,
-          count_contradictions(a, b.points, T_a_b, kDeep) + count_contradictions(b, a.points, T_a_b.inverse(), kDeep)};
+  return {match_patches(a, b, T_a_b).correspondences, count_contradictions(a, b, T_a_b, kDeep)};
 }
 
-/// Of the log's only robot, by the stamp that a relation names.
-class ScansByStamp {
+/// The scans of a log's only robot, in order, each seen as a patch.
+class Views {
  public:
-  explicit ScansByStamp(MergedLogs& logs) : reader_(*logs.robots().front().reader) {
+  explicit Views(MergedLogs& logs) : reader_(*logs.robots().front().reader) {
     while (const Event* event = logs.next()) {
-      const auto* scan = std::get_if<Scan>(&event->body);
-      if (scan == nullptr) continue;
-      place_.emplace(key(event->stamp), scans_.size());
-      scans_.push_back(*scan);
+      if (const auto* scan = std::get_if<Scan>(&event->body)) scans_.push_back(*scan);
     }
   }
-  [[nodiscard]] std::optional<std::size_t> find(double stamp) const {
-    const auto at = place_.find(key(stamp));
-    return at == place_.end() ? std::nullopt : std::optional(at->second);
-  }
-  [[nodiscard]] Patch view(std::size_t i) const {
+  [[nodiscard]] Patch at(std::size_t i) const {
     return make_patch(PatchId{0}, RobotId{0}, i, 0, scans_[i], reader_.lasers()[scans_[i].laser]);
   }
 
  private:
-  static long long key(double stamp) { return std::llround(1e5 * stamp); }
   const CarmenReader& reader_;
   std::vector<Scan> scans_;
-  std::unordered_map<long long, std::size_t> place_;  // looked up only, never walked through
 };
 
 /// Counts over all relations.
@@ -101,17 +88,18 @@ Result<Outcome> compare(const std::string& name, const std::string& folder) {
   if (!known) return tl::unexpected(known.error());
   Result<MergedLogs> logs = MergedLogs::open(robots);
   if (!logs) return tl::unexpected(logs.error());
-  const ScansByStamp scans(*logs);
-  const Map& map = run->mapper.map();
-  const Trajectory& trajectory = map.robots().front().trajectory;
+  const Views views(*logs);
+  const EvaluatedTrajectory mapped = final_trajectories(run->mapper.map()).front();
+  const StampLookup by_stamp(mapped.stamps);
+  const double tolerance = RelationErrorOptions{}.stamp_tolerance;
   Comparison comparison;
   for (const TrueRelation& relation : known->relations) {
-    const std::optional<std::size_t> a = scans.find(relation.stamp_a);
-    const std::optional<std::size_t> b = scans.find(relation.stamp_b);
+    const std::optional<std::size_t> a = by_stamp.nearest(relation.stamp_a, tolerance);
+    const std::optional<std::size_t> b = by_stamp.nearest(relation.stamp_b, tolerance);
     if (!a || !b) continue;
-    const Pose2 T_a_b = map.project(trajectory[*a].pose).inverse() * map.project(trajectory[*b].pose);
-    const Patch view_a = scans.view(*a);
-    const Patch view_b = scans.view(*b);
+    const Pose2 T_a_b = mapped.poses[*a].inverse() * mapped.poses[*b];
+    const Patch view_a = views.at(*a);
+    const Patch view_b = views.at(*b);
     comparison.add(agreement(view_a, view_b, relation.T_a_b), agreement(view_a, view_b, T_a_b),
                    (T_a_b.translation() - relation.T_a_b.translation()).norm());
   }

@@ -1,11 +1,11 @@
 // Do robots that start anywhere end on one map, as good as one robot's?
 #include <cmath>
 
+#include "apps/evaluated_relations.hpp"
 #include "apps/experiments/list.hpp"
 #include "apps/experiments/recorded_data.hpp"
 #include "apps/map_run.hpp"
 #include "apps/simulated_run.hpp"
-#include "helicoid/io/relations_file.hpp"
 
 namespace helicoid {
 
@@ -47,16 +47,6 @@ Result<Scored> map_and_score(std::vector<RobotLogs> robots, std::span<const Eval
   between.between_robots = true;
   return Scored{relation_error(trajectories, relations), relation_error(trajectories, relations, between),
                 map.islands().size(), cpu_s};
-}
-
-Result<std::vector<EvaluatedRelation>> read_evaluated(const std::string& path) {
-  const Result<RelationsFile> file = read_relations(path);
-  if (!file) return tl::unexpected(file.error());
-  std::vector<EvaluatedRelation> relations;
-  for (const TrueRelation& r : file->relations) {
-    relations.push_back({r.robot_a, r.stamp_a, r.robot_b, r.stamp_b, r.T_a_b});
-  }
-  return relations;
 }
 
 /// The team's relations by the whole log's clock: the cut shifted some robots' stamps, but kept the order and the

@@ -209,6 +209,13 @@ class Rounds {
 
 }  // namespace
 
+AlignOptions align_options(const LaserModel& laser) {
+  AlignOptions options;
+  options.kappa = laser.kappa;
+  options.incidence_bias = laser.incidence_bias;
+  return options;
+}
+
 const char* name_of(AlignStatus status) {
   switch (status) {
     case AlignStatus::aligned: return "aligned";

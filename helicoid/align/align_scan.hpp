@@ -3,6 +3,7 @@
 
 #include "helicoid/align/reference.hpp"
 #include "helicoid/geometry/pose2.hpp"
+#include "helicoid/sensor/laser_model.hpp"
 #include "helicoid/sensor/scan_points.hpp"
 
 namespace helicoid {
@@ -19,6 +20,9 @@ struct AlignOptions {
   double min_inlier_share = 0.35;  ///< of the points with a normal; fewer = failure
   int min_points = 12;
 };
+
+/// The defaults with what is the laser's own.
+[[nodiscard]] AlignOptions align_options(const LaserModel& laser);
 
 /// What odometry says about the pose, as a Gaussian in the reference's frame.
 struct PosePrior {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace helicoid {
 
@@ -44,19 +45,16 @@ class Surfaces {
   /// True if at this place [cells], or within one cell of it along `normal`, an occupied cell holds a surface that
   /// faces along `normal`.
   [[nodiscard]] bool there(const Vector2d& at, const Vector2d& normal, double same_facing) const {
-    for (const double step : {0.0, 1.0, -1.0}) {
-      const Vector2d p = at + step * normal;
-      const auto column = static_cast<int>(std::floor(p.x()));
-      const auto row = static_cast<int>(std::floor(p.y()));
-      if (frame_.inside(column, row) && faces(frame_.index(column, row), normal, same_facing)) return true;
-    }
-    return false;
+    const double steps[] = {0.0, 1.0, -1.0};
+    return std::any_of(std::begin(steps), std::end(steps),
+                       [&](double step) { return exactly_there(at + step * normal, normal, same_facing); });
   }
 
-  /// True if this cell is occupied by a surface that faces along `normal`.
-  [[nodiscard]] bool faces(std::size_t cell, const Vector2d& normal, double same_facing) const {
-    if (states_[cell] != CellState::occupied) return false;
-    return std::any_of(normals_[cell].begin(), normals_[cell].end(), [&](const Normals& n) {
+  /// Without the slack of a cell along the normal, which would call the blur of one wall its twin.
+  [[nodiscard]] bool exactly_there(const Vector2d& at, const Vector2d& normal, double same_facing) const {
+    const std::optional<std::size_t> cell = cell_at(at);
+    if (!cell || states_[*cell] != CellState::occupied) return false;
+    return std::any_of(normals_[*cell].begin(), normals_[*cell].end(), [&](const Normals& n) {
       const double length = std::hypot(n.x, n.y);
       return length >= static_cast<double>(kFewestPoints) &&
              n.x * normal.x() + n.y * normal.y() >= same_facing * length;
@@ -70,14 +68,11 @@ class Surfaces {
     std::vector<PatchId> patches;
     const Vector2d along(-normal.y(), normal.x());
     for (int step = -cells; step <= cells; ++step) {
-      const Vector2d at = centre + step * along;
-      const auto column = static_cast<int>(std::floor(at.x()));
-      const auto row = static_cast<int>(std::floor(at.y()));
-      if (!frame_.inside(column, row)) continue;
-      const std::size_t cell = frame_.index(column, row);
-      auto point = std::lower_bound(points_.begin(), points_.end(), cell,
+      const std::optional<std::size_t> cell = cell_at(centre + step * along);
+      if (!cell) continue;
+      auto point = std::lower_bound(points_.begin(), points_.end(), *cell,
                                     [](const PointInCell& p, std::size_t c) { return p.cell < c; });
-      for (; point != points_.end() && point->cell == cell; ++point) {
+      for (; point != points_.end() && point->cell == *cell; ++point) {
         if (point->normal.cast<double>().dot(normal) >= same_facing) patches.push_back(point->patch);
       }
     }
@@ -91,6 +86,12 @@ class Surfaces {
   }
 
  private:
+  [[nodiscard]] std::optional<std::size_t> cell_at(const Vector2d& at) const {
+    const auto column = static_cast<int>(std::floor(at.x()));
+    const auto row = static_cast<int>(std::floor(at.y()));
+    return frame_.inside(column, row) ? std::optional(frame_.index(column, row)) : std::nullopt;
+  }
+
   void add(const Patch& patch, const Pose2& T_plane_patch) {
     const Matrix2d R = T_plane_patch.rotation();
     const ScanPoints& points = patch.points;
@@ -98,19 +99,16 @@ class Surfaces {
       if (points.weight[i] <= 0) continue;
       const Vector2d p = frame_.to_cells(T_plane_patch * Vector2d(points.x[i], points.y[i]));
       const Vector2d n = R * Vector2d(points.nx[i], points.ny[i]);
-      const auto column = static_cast<int>(std::floor(p.x()));
-      const auto row = static_cast<int>(std::floor(p.y()));
-      if (frame_.inside(column, row)) points_.push_back({frame_.index(column, row), patch.id, n.cast<float>()});
+      if (const auto cell = cell_at(p)) points_.push_back({*cell, patch.id, n.cast<float>()});
       // Beams lie wider than cells: a point speaks for the cells beside it on its surface, too.
       for (const double step : {-1.0, 0.0, 1.0}) add(p + step * Vector2d(-n.y(), n.x()), n);
     }
   }
 
   void add(const Vector2d& at, const Vector2d& normal) {
-    const auto column = static_cast<int>(std::floor(at.x()));
-    const auto row = static_cast<int>(std::floor(at.y()));
-    if (!frame_.inside(column, row)) return;
-    auto& cell = normals_[frame_.index(column, row)];
+    const std::optional<std::size_t> there = cell_at(at);
+    if (!there) return;
+    auto& cell = normals_[*there];
     Normals& sum = cell[facing(cell, normal)];
     sum.x += static_cast<float>(normal.x());
     sum.y += static_cast<float>(normal.y());
@@ -147,7 +145,10 @@ enum class Twin : std::uint8_t {
 class TwinFinder {
  public:
   TwinFinder(const Surfaces& surfaces, const GridFrame& frame, const CrispnessOptions& options)
-      : surfaces_(surfaces), frame_(frame), options_(options) {}
+      : surfaces_(surfaces),
+        frame_(frame),
+        options_(options),
+        extent_(std::max(1, static_cast<int>(std::lround(options.extent / frame.resolution)))) {}
 
   [[nodiscard]] Twin look(int column, int row) const {
     const Vector2d centre(column + 0.5, row + 0.5);
@@ -175,42 +176,35 @@ class TwinFinder {
   /// anywhere in it, at this depth along the normal [cells], beside the surface at depth 0.
   [[nodiscard]] bool side_by_side(const Vector2d& centre, const Vector2d& normal, double depth) const {
     const Vector2d along(-normal.y(), normal.x());
-    const int cells = std::max(1, static_cast<int>(std::lround(options_.extent / frame_.resolution)));
-    const int needed = static_cast<int>(std::ceil(options_.support * cells));
+    const int needed = static_cast<int>(std::ceil(options_.support * extent_));
     const auto both = [&](int step) {
       const Vector2d p = centre + step * along;
       return surfaces_.there(p, normal, options_.same_facing) &&
-             (depth == 0 || exactly_there(p + depth * normal, normal));
+             (depth == 0 || surfaces_.exactly_there(p + depth * normal, normal, options_.same_facing));
     };
     if (!both(0)) return false;
     int count = 0;
-    for (int step = -cells; step < 0; ++step) count += both(step) ? 1 : 0;
+    for (int step = -extent_; step < 0; ++step) count += both(step) ? 1 : 0;
     // The window slides from the one side to the other.
-    for (int first = -cells; first < 0; ++first) {
+    for (int first = -extent_; first < 0; ++first) {
       if (count >= needed) return true;
-      count += (both(first + cells) ? 1 : 0) - (both(first) ? 1 : 0);
+      count += (both(first + extent_) ? 1 : 0) - (both(first) ? 1 : 0);
     }
     return count >= needed;
   }
 
   [[nodiscard]] bool seen_at_once(const Vector2d& centre, const Vector2d& normal, double depth) const {
-    const int cells = std::max(1, static_cast<int>(std::lround(options_.extent / frame_.resolution)));
-    const std::vector<PatchId> here = surfaces_.seen_by(centre, normal, cells, options_.same_facing);
-    const std::vector<PatchId> there = surfaces_.seen_by(centre + depth * normal, normal, cells, options_.same_facing);
+    const std::vector<PatchId> here = surfaces_.seen_by(centre, normal, extent_, options_.same_facing);
+    const std::vector<PatchId> there =
+        surfaces_.seen_by(centre + depth * normal, normal, extent_, options_.same_facing);
     return std::any_of(here.begin(), here.end(),
                        [&](PatchId id) { return std::binary_search(there.begin(), there.end(), id); });
-  }
-
-  /// Without the slack of a cell along the normal, which would call the blur of one wall its twin.
-  [[nodiscard]] bool exactly_there(const Vector2d& p, const Vector2d& normal) const {
-    const auto column = static_cast<int>(std::floor(p.x()));
-    const auto row = static_cast<int>(std::floor(p.y()));
-    return frame_.inside(column, row) && surfaces_.faces(frame_.index(column, row), normal, options_.same_facing);
   }
 
   const Surfaces& surfaces_;
   const GridFrame& frame_;
   const CrispnessOptions& options_;
+  int extent_;  ///< cells
 };
 
 }  // namespace

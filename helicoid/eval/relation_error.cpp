@@ -2,41 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
+
+#include "helicoid/eval/stamp_lookup.hpp"
 
 namespace helicoid {
 
 namespace {
 
-/// A trajectory with its poses in order of time.
+/// A trajectory's poses by stamp.
 class PoseLookup {
  public:
-  explicit PoseLookup(const EvaluatedTrajectory& trajectory) : trajectory_(&trajectory) {
-    order_.resize(trajectory.stamps.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::size_t a, std::size_t b) { return trajectory.stamps[a] < trajectory.stamps[b]; });
-  }
+  explicit PoseLookup(const EvaluatedTrajectory& trajectory) : trajectory_(&trajectory), lookup_(trajectory.stamps) {}
 
   [[nodiscard]] std::optional<Pose2> nearest(double stamp, double tolerance) const {
-    const auto& stamps = trajectory_->stamps;
-    const auto at =
-        std::lower_bound(order_.begin(), order_.end(), stamp, [&](std::size_t i, double t) { return stamps[i] < t; });
-    std::optional<Pose2> found;
-    double best = tolerance;
-    if (at != order_.end() && std::abs(stamps[*at] - stamp) <= best) {
-      best = std::abs(stamps[*at] - stamp);
-      found = trajectory_->poses[*at];
-    }
-    if (at != order_.begin() && std::abs(stamps[*(at - 1)] - stamp) < best) found = trajectory_->poses[*(at - 1)];
-    return found;
+    const std::optional<std::size_t> at = lookup_.nearest(stamp, tolerance);
+    return at ? std::optional(trajectory_->poses[*at]) : std::nullopt;
   }
   [[nodiscard]] const EvaluatedTrajectory& trajectory() const { return *trajectory_; }
 
  private:
   const EvaluatedTrajectory* trajectory_;
-  std::vector<std::size_t> order_;
+  StampLookup lookup_;
 };
 
 const PoseLookup* find(const std::vector<PoseLookup>& lookups, const std::string& robot) {

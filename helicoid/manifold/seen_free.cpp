@@ -31,4 +31,8 @@ int count_contradictions(const Patch& patch, const ScanPoints& points, const Pos
   return count;
 }
 
+int count_contradictions(const Patch& a, const Patch& b, const Pose2& T_a_b, double depth) {
+  return count_contradictions(a, b.points, T_a_b, depth) + count_contradictions(b, a.points, T_a_b.inverse(), depth);
+}
+
 }  // namespace helicoid

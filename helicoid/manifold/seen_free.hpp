@@ -25,5 +25,7 @@ class SeenFree {
 /// How many of the points (with a normal, of another view) lie that deep in what the patch saw as free.
 [[nodiscard]] int count_contradictions(const Patch& patch, const ScanPoints& points, const Pose2& T_patch_points,
                                        double depth);
+/// The same of two patches, either's points in what the other saw as free.
+[[nodiscard]] int count_contradictions(const Patch& a, const Patch& b, const Pose2& T_a_b, double depth);
 
 }  // namespace helicoid

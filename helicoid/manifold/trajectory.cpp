@@ -71,15 +71,15 @@ std::array<std::uint8_t, 3> short_float(double value) {
   return three_bytes((std::bit_cast<std::uint32_t>(static_cast<float>(value)) + 0x80U) >> 8U);
 }
 
+double long_float(const std::array<std::uint8_t, 3>& bytes) {
+  return static_cast<double>(std::bit_cast<float>(whole(bytes) << 8U));
+}
+
 /// Of what begins at scans, in order: that which scan i belongs to.
 template <class List>
 auto last_before(const List& list, std::size_t i) {
   return std::prev(std::upper_bound(list.begin(), list.end(), i,
                                     [](std::size_t at, const auto& element) { return at < element.first; }));
-}
-
-double long_float(const std::array<std::uint8_t, 3>& bytes) {
-  return static_cast<double>(std::bit_cast<float>(whole(bytes) << 8U));
 }
 
 }  // namespace

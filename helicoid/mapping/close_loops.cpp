@@ -14,11 +14,8 @@ namespace {
 
 /// True if an older patch lies about b that b is not tied to: without one nothing can be induced.
 bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along) {
-  const Vector2d place = map.T_plane_patch(b).translation();
   for (std::size_t i = 0; i < b.index(); ++i) {
-    const PatchId id = make_id<PatchId>(i);
-    if ((map.T_plane_patch(id).translation() - place).squaredNorm() > kTieReach * kTieReach) continue;
-    if (map.island_of(id) == map.island_of(b) && !is_tied_to_stretch(map, b, id, along)) return true;
+    if (is_untied_ground(map, b, make_id<PatchId>(i), along)) return true;
   }
   return false;
 }

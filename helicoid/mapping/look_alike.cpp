@@ -148,9 +148,8 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
   reference.build(reference_parts(map, views));
 
   const LaserModel& laser = map.patch(b).laser;
-  AlignOptions align;
-  align.kappa = laser.kappa * static_cast<double>(place.size());
-  align.incidence_bias = laser.incidence_bias;
+  AlignOptions align = align_options(laser);
+  align.kappa *= static_cast<double>(place.size());
   double ambiguity = 0;
   PosePrior prior{candidate.T_a_b.T_a_b, candidate.T_a_b.covariance.inverse()};
   if (confidence_interval(candidate.T_a_b.covariance).position > options.narrow) {

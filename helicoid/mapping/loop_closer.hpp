@@ -40,6 +40,7 @@ class LoopCloser {
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
   /// How far along its robot's way each patch was kept, metres: up to the last patch that was observed or followed.
   [[nodiscard]] std::span<const double> along() const { return along_; }
+  /// Brings it up to the map's last patch.
   void follow_ways(const Map& map);
 
  private:

@@ -12,6 +12,8 @@ namespace {
 /// Along a robot's way; patches nearer than this are one stretch, metres.
 constexpr double kStretch = 4;
 constexpr int kMinCorrespondences = 40;
+/// Patches that are to be related lie this near, metres.
+constexpr double kReach = 3;
 
 }  // namespace
 
@@ -31,6 +33,12 @@ bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<cons
     const Relation& r = map.relation(id);
     return r.kind != RelationKind::odometry && near(r.a == patch ? r.b : r.a);
   });
+}
+
+bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const double> along) {
+  const Vector2d apart = map.T_plane_patch(q).translation() - map.T_plane_patch(patch).translation();
+  return apart.squaredNorm() <= kReach * kReach && map.island_of(q) == map.island_of(patch) &&
+         !is_tied_to_stretch(map, patch, q, along);
 }
 
 RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views, const PosePrior& prior,

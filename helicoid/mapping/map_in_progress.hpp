@@ -17,12 +17,12 @@ struct MapInProgress {
   void add(const Relation& relation);
 };
 
-/// Patches that are to be related lie this near, metres.
-inline constexpr double kTieReach = 3;
-
 /// True if some relation of the patch already leads to q's stretch of way: one patch of a stretch is enough to relate
 /// to. `along`: how far along its robot's way each patch was kept, metres.
 [[nodiscard]] bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along);
+
+/// True if q lies about the patch, on the same island, and its stretch of way is not yet related to.
+[[nodiscard]] bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const double> along);
 
 /// Relates a patch to the views, all of them older, and adds the relations.
 RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views, const PosePrior& prior,

@@ -25,7 +25,8 @@ Motion MotionPrior::advance(const Scan& scan, double stamp) {
   // Stamps that stand still or step back tell no time: a usual interval then.
   const double elapsed = (stamp > last_stamp_ ? std::min(stamp - last_stamp_, 10.0) : 0.3) + limits_.slack;
   if (!scan.has_odometry) {
-    motion = {velocity_, false, false, velocity_};
+    motion.T_last_now = velocity_;
+    motion.measured = false;
   } else if (has_last_) {
     motion.T_last_now = T_odom_last_.inverse() * scan.T_odom_robot;
     motion.T_last_now_odometry = motion.T_last_now;
@@ -48,7 +49,8 @@ bool MotionPrior::is_doubtful(const Motion& motion) const {
   return motion.measured && before > kDriving && motion.T_last_now.distance() < kStopped * before;
 }
 
-Motion MotionPrior::alternative(const Motion& motion) const {
+std::optional<Motion> MotionPrior::alternative(const Motion& motion) const {
+  if (!motion.measured && !motion.impossible) return std::nullopt;
   Motion other = motion;
   other.measured = false;
   other.T_last_now = motion.impossible ? motion.T_last_now_odometry : velocity_;

@@ -2,6 +2,8 @@
 // its scale is learned per robot from how far the matches moved the predictions (design 5.4).
 #pragma once
 
+#include <optional>
+
 #include "helicoid/align/align_scan.hpp"
 #include "helicoid/sensor/event.hpp"
 
@@ -18,7 +20,7 @@ struct Motion {
   Pose2 T_last_now;
   bool measured = true;  ///< false: no odometry, or an impossible step; constant velocity instead
   bool impossible = false;
-  Pose2 T_last_now_odometry;  ///< the step as odometry has it, possible or not
+  Pose2 T_last_now_odometry;  ///< the step as odometry has it, where it has one: possible or not
 };
 
 class MotionPrior {
@@ -32,8 +34,9 @@ class MotionPrior {
   /// True if this motion is not to be taken on trust: the last match contradicted the odometry, or a robot that drove
   /// has all at once not moved: some odometry stands still for a few scans and makes up for them in one step.
   [[nodiscard]] bool is_doubtful(const Motion& motion) const;
-  /// What else it may have been: the last matched motion once more, or the step that is thought impossible.
-  [[nodiscard]] Motion alternative(const Motion& motion) const;
+  /// What else it may have been: the last matched motion once more, or the step that is thought impossible. Nothing
+  /// without odometry.
+  [[nodiscard]] std::optional<Motion> alternative(const Motion& motion) const;
   /// How well this motion is known: of T_last_now.
   [[nodiscard]] Matrix3d covariance(const Motion& motion) const;
   /// Information about the raw motion between two kept patches that lie this far apart along the path.

@@ -34,8 +34,7 @@ Pose2 fit_alone(std::span<const LocalPatch> views, std::span<const PairMatch> ma
 
 /// True if the two views say the same of most places that both speak of, b standing at T_a_b.
 bool agree(const Patch& a, const Patch& b, const Pose2& T_a_b, const PairMatch& match, const RelateOptions& options) {
-  const int against = count_contradictions(a, b.points, T_a_b, options.deep) +
-                      count_contradictions(b, a.points, T_a_b.inverse(), options.deep);
+  const int against = count_contradictions(a, b, T_a_b, options.deep);
   return match.correspondences >= options.least_agreeing * (match.correspondences + against);
 }
 
@@ -55,18 +54,20 @@ bool drop_contradicted(const Map& map, std::span<const LocalPatch> views, const 
 
 }  // namespace
 
+PairMatch match_patches(const Patch& a, const Patch& b, const Pose2& T_a_b) {
+  MatchPairOptions options;
+  options.incidence_bias = b.laser.incidence_bias;
+  return match_pair({&a.points, &a.laser, a.scan.T_robot_laser}, b.points, T_a_b, options);
+}
+
 RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Patch& patch, const PosePrior& prior,
                     const RelateOptions& options) {
   RelatedPatch result{prior.T_reference_scan, {}};
-  MatchPairOptions match = options.match;
-  match.incidence_bias = patch.laser.incidence_bias;
   std::vector<PairMatch> matches(views.size());
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t i = 0; i < views.size(); ++i) {
-      const Patch& view = map.patch(views[i].patch);
-      const PairReference reference{&view.points, &view.laser, view.scan.T_robot_laser};
       matches[i] =
-          match_pair(reference, patch.points, views[i].T_anchor_patch.inverse() * result.T_anchor_patch, match);
+          match_patches(map.patch(views[i].patch), patch, views[i].T_anchor_patch.inverse() * result.T_anchor_patch);
       if (matches[i].correspondences < options.min_correspondences) matches[i] = {};
     }
     const Pose2 matched_at = result.T_anchor_patch;

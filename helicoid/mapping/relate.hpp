@@ -11,7 +11,6 @@
 namespace helicoid {
 
 struct RelateOptions {
-  MatchPairOptions match;           ///< but the incidence bias, which is the laser's
   int rounds = 3;                   ///< of matching and fitting at most, EM-style
   double settled_position = 0.004;  ///< a fit that moves less ends the rounds, metres
   double settled_heading = 0.002;   ///< radians
@@ -21,6 +20,9 @@ struct RelateOptions {
   double least_agreeing = 0.5;
   double deep = 0.15;  ///< metres
 };
+
+/// The correspondences of two patches that stand so, by what their lasers are.
+[[nodiscard]] PairMatch match_patches(const Patch& a, const Patch& b, const Pose2& T_a_b);
 
 /// The relation of a local patch (a) with the new one (b).
 struct NewRelation {

@@ -17,12 +17,8 @@ constexpr std::size_t kViews = 4;
 std::vector<PosePair> untied_pairs(const Map& map, const Island& island, std::span<const double> along) {
   std::vector<PosePair> pairs;
   for (std::uint32_t a = 0; a < island.patches.size(); ++a) {
-    const PatchId p = island.patches[a];
-    const Vector2d place = map.T_plane_patch(p).translation();
     for (std::uint32_t b = a + 1; b < island.patches.size(); ++b) {
-      const PatchId q = island.patches[b];
-      if ((map.T_plane_patch(q).translation() - place).squaredNorm() > kTieReach * kTieReach) continue;
-      if (!is_tied_to_stretch(map, q, p, along)) pairs.push_back({a, b});
+      if (is_untied_ground(map, island.patches[b], island.patches[a], along)) pairs.push_back({a, b});
     }
   }
   return pairs;
@@ -51,11 +47,8 @@ bool tie_patch(MapInProgress& progress, PatchId b, const LocalMap& known) {
   const std::vector<LocalPatch> views = select_views(map, known, patch.points, Pose2{}, PatchId{}, kViews);
   Reference reference;
   reference.build(reference_parts(map, views));
-  AlignOptions align;
-  align.kappa = patch.laser.kappa;
-  align.incidence_bias = patch.laser.incidence_bias;
   const Matrix3d open = Vector3d(1e2, 1e2, 1e3).asDiagonal();
-  const Alignment found = align_scan(reference, patch.points, {Pose2{}, open}, align);
+  const Alignment found = align_scan(reference, patch.points, {Pose2{}, open}, align_options(patch.laser));
   if (!found.usable()) return false;
   return !relate_to(progress, b, views, {found.T_reference_scan, open}, RelationKind::overlap).relations.empty();
 }

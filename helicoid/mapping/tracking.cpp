@@ -32,15 +32,14 @@ void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points,
 
 Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, const PosePrior& prior,
                                const Motion& motion, const LaserModel& laser) {
-  AlignOptions align;
-  align.kappa = laser.kappa;
-  align.incidence_bias = laser.incidence_bias;
+  const AlignOptions align = align_options(laser);
   Alignment alignment = align_scan(robot.reference, points, prior, align);
   const bool is_unusual = alignment.inlier_share < options.usual_inlier_part * robot.usual_share;
   if (robot.motion.is_doubtful(motion) || is_unusual || alignment.inlier_share < options.good_inlier_share) {
-    const PosePrior there = predict(robot, robot.motion.alternative(motion));
-    const Alignment other = align_scan(robot.reference, points, there, align);
-    if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
+    if (const std::optional<Motion> instead = robot.motion.alternative(motion)) {
+      const Alignment other = align_scan(robot.reference, points, predict(robot, *instead), align);
+      if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
+    }
   }
   if (alignment.status == AlignStatus::too_few_inliers || alignment.inlier_share < options.good_inlier_share) {
     const Alignment fan = align_scan_in_fan(robot.reference, points, prior, align);
