@@ -1,12 +1,12 @@
 // Does the truth lie where the map says that it may?
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <unordered_map>
 
 #include "apps/experiments/list.hpp"
 #include "apps/experiments/recorded_data.hpp"
 #include "apps/map_run.hpp"
 #include "apps/simulated_run.hpp"
+#include "helicoid/eval/stamp_lookup.hpp"
 #include "helicoid/fit/relative_covariance.hpp"
 #include "helicoid/io/relations_file.hpp"
 #include "helicoid/manifold/confidence.hpp"
@@ -133,17 +133,16 @@ Result<Outcome> run_recorded(const std::string& name, const std::string& folder)
   const Map& map = run->mapper.map();
   const StatedConfidence stated(map);
   const Trajectory& scans = map.robots().front().trajectory;
-  std::unordered_map<long long, std::size_t> by_stamp;  // looked up only, never walked through
-  const auto key = [](double stamp) { return std::llround(1e5 * stamp); };
-  for (std::size_t i = 0; i < scans.size(); ++i) by_stamp.emplace(key(scans[i].stamp), i);
+  const StampLookup by_stamp(final_trajectories(map).front().stamps);
+  const double tolerance = RelationErrorOptions{}.stamp_tolerance;
   const Matrix3d truth_noise = noise_floor(kTruthPosition, kTruthHeading);
   Tally all;
   Tally local;
   for (const TrueRelation& relation : truth->relations) {
-    const auto a = by_stamp.find(key(relation.stamp_a));
-    const auto b = by_stamp.find(key(relation.stamp_b));
-    if (a == by_stamp.end() || b == by_stamp.end()) continue;
-    UncertainPose2 pose = stated.between(scans[a->second], scans[b->second]);
+    const std::optional<std::size_t> a = by_stamp.nearest(relation.stamp_a, tolerance);
+    const std::optional<std::size_t> b = by_stamp.nearest(relation.stamp_b, tolerance);
+    if (!a || !b) continue;
+    UncertainPose2 pose = stated.between(scans[*a], scans[*b]);
     pose.covariance += truth_noise;
     all.add(pose, relation.T_a_b);
     if (std::abs(relation.stamp_b - relation.stamp_a) <= 5) local.add(pose, relation.T_a_b);
