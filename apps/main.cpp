@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
   helicoid::add_eval_verb(program, exit_code);
   helicoid::add_simulate_verb(program, exit_code);
   helicoid::add_fit_verb(program, exit_code);
+  helicoid::add_ledger_verb(program, exit_code);
+  helicoid::add_explain_verb(program, exit_code);
   helicoid::add_info_verb(program, exit_code);
   helicoid::add_plot_verb(program, exit_code);
   helicoid::add_bench_verb(program, exit_code);

@@ -28,36 +28,28 @@ double covered_area(const Map& map, const Island& island) {
   return cells * kCell * kCell;
 }
 
-/// The robots whose scans stand on an island, and where the first scan of the first of them stands.
-void add_robots(const Map& map, IslandReport& report) {
-  std::vector<const RobotRecord*> robots;
+/// The robots whose scans stand on an island, alphabetically.
+std::vector<std::string> robots_of(const Map& map, const Island& island) {
+  std::vector<std::string> robots;
   for (const RobotRecord& robot : map.robots()) {
-    if (!robot.trajectory.empty() && map.island_of(robot.trajectory.front().pose.patch) == report.island.id) {
-      robots.push_back(&robot);
+    if (!robot.trajectory.empty() && map.island_of(robot.trajectory.front().pose.patch) == island.id) {
+      robots.push_back(robot.name);
     }
   }
-  std::sort(robots.begin(), robots.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
-  for (const RobotRecord* robot : robots) report.robots.push_back(robot->name);
-  if (!robots.empty()) report.T_plane_island = map.project(robots.front()->trajectory.front().pose);
+  std::sort(robots.begin(), robots.end());
+  return robots;
 }
 
-const IslandReport& island_of(const MapReport& report, IslandId id) {
-  return *std::find_if(report.islands.begin(), report.islands.end(),
-                       [id](const IslandReport& i) { return i.island.id == id; });
-}
-
-Result<void> write_trajectories(const Map& map, const MapReport& report, const std::string& folder, bool online_only) {
+Result<void> write_trajectories(const Map& map, const std::string& folder, bool online_only) {
   std::error_code error;
   fs::create_directories(fs::path(folder) / "trajectories" / "online", error);
   for (const RobotRecord& robot : map.robots()) {
     if (robot.trajectory.empty()) continue;
-    const IslandReport& island = island_of(report, map.island_of(robot.trajectory.front().pose.patch));
-    const Pose2 T_island_plane = island.T_plane_island.inverse();
     std::vector<StampedPose> final_poses;
     std::vector<StampedPose> online;
     for (const TrackedScan& scan : robot.trajectory) {
-      final_poses.push_back({scan.stamp, T_island_plane * map.project(scan.pose)});
-      online.push_back({scan.stamp, T_island_plane * scan.T_island_robot_online()});
+      final_poses.push_back({scan.stamp, map.project(scan.pose)});
+      online.push_back({scan.stamp, scan.T_island_robot_online()});
     }
     const std::string base = folder + "/trajectories/";
     if (auto done = write_whole_file(base + robot.name + ".tum", to_tum(online_only ? online : final_poses)); !done)
@@ -128,11 +120,11 @@ void write_island(const Map& map, const MapReport& report, const IslandReport& i
 MapReport report_on(const Map& map, bool drawn) {
   MapReport report{find_neighbours(map), {}};
   for (Island& island : map.islands()) {
-    IslandReport entry{std::move(island), {}, {}, 0, {}};
+    IslandReport entry{std::move(island), {}, {}, 0};
     entry.sheets = drawn ? find_sheets(map, report.neighbours, entry.island)
                          : Sheets{count_sheets(map, report.neighbours, entry.island), {}};
     entry.area_m2 = covered_area(map, entry.island);
-    add_robots(map, entry);
+    entry.robots = robots_of(map, entry.island);
     report.islands.push_back(std::move(entry));
   }
   std::stable_sort(report.islands.begin(), report.islands.end(), [](const IslandReport& a, const IslandReport& b) {
@@ -141,9 +133,9 @@ MapReport report_on(const Map& map, bool drawn) {
   return report;
 }
 
-Result<void> write_records(const MapRun& run, const MapReport& report, const std::string& folder, bool online_only) {
+Result<void> write_records(const MapRun& run, const std::string& folder, bool online_only) {
   const Map& map = run.mapper.map();
-  if (auto done = write_trajectories(map, report, folder, online_only); !done) return done;
+  if (auto done = write_trajectories(map, folder, online_only); !done) return done;
   if (auto done = write_whole_file(folder + "/graph.g2o", to_g2o(map)); !done) return done;
   if (auto done = write_whole_file(folder + "/ledger.json", ledger_json(map, run.mapper.ledger())); !done) {
     return done;

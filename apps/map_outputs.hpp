@@ -15,8 +15,7 @@ struct IslandReport {
   Island island;
   std::vector<std::string> robots;  ///< alphabetically
   Sheets sheets;
-  double area_m2 = 0;    ///< of the union of its free space, on the 10 cm raster
-  Pose2 T_plane_island;  ///< the first pose of its alphabetically first robot
+  double area_m2 = 0;  ///< of the union of its free space, on the 10 cm raster
 };
 
 /// The islands, the largest (most patches) first, and the neighbours that their sheets follow from. `drawn`: work out
@@ -28,8 +27,7 @@ struct MapReport {
 [[nodiscard]] MapReport report_on(const Map& map, bool drawn);
 
 /// map.gpkg, graph.g2o, ledger.json and the trajectories; `online_only`: every pose as it was first reported.
-[[nodiscard]] Result<void> write_records(const MapRun& run, const MapReport& report, const std::string& folder,
-                                         bool online_only);
+[[nodiscard]] Result<void> write_records(const MapRun& run, const std::string& folder, bool online_only);
 /// map.png, map.pgm, map.yaml, sketch.svg, topology.geojson; further islands and sheets in folders of their own.
 /// Returns the pictures' paths.
 [[nodiscard]] Result<std::vector<std::string>> write_charts(const Map& map, const MapReport& report,

@@ -1,131 +1,11 @@
 // helicoid map: logs in, a map out.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
-#include "apps/map_summary.hpp"
-#include "apps/output_folder.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/map_command.hpp"
 #include "apps/verb.hpp"
-#include "helicoid/base/whole_file.hpp"
 
 namespace helicoid {
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-struct MapArguments {
-  std::vector<std::string> logs;
-  std::vector<std::string> named;
-  std::string out;
-  std::string laser;
-  std::string join = "sightings";
-  std::size_t every = 1;
-  double from = 0;
-  double to = 1e300;
-  int threads = 1;
-  bool no_charts = false;
-  bool no_closures = false;
-  bool online = false;
-  bool force = false;
-  bool json = false;
-};
-
-/// What decides the result; not where it goes and not how many threads work.
-Json options_json(const MapArguments& a) {
-  Json json = {{"laser", a.laser.empty() ? "recognised" : a.laser},
-               {"every", a.every},
-               {"from", a.from},
-               {"to", a.to < 1e300 ? Json(a.to) : Json()},
-               {"charts", !a.no_charts},
-               {"closures", !a.no_closures},
-               {"join", a.join},
-               {"online", a.online}};
-  return json;
-}
-
-void print_report(const MapRun& run, const Json& summary, const MapArguments& a,
-                  const std::vector<std::string>& files) {
-  for (const std::string& laser : run.lasers) fmt::print("laser      {}\n", laser);
-  fmt::print("scans      {}\npatches    {}, {} related pairs, {} correspondences\n",
-             summary["scans"].get<std::size_t>(), summary["patches"].get<std::size_t>(),
-             summary["relations"].get<std::size_t>(), summary["correspondences"].get<std::size_t>());
-  for (const auto& island : summary["islands"]) {
-    fmt::print("island {:<4}{} patches, {:.1f} m2, {} ({})\n", island["id"].get<std::size_t>(),
-               island["patches"].get<std::size_t>(), island["area_m2"].get<double>(),
-               island["sheets"].get<int>() == 1 ? "planar" : fmt::format("{} sheets", island["sheets"].get<int>()),
-               fmt::join(island["robots"].get<std::vector<std::string>>(), ", "));
-  }
-  const auto& closures = summary["closures"];
-  fmt::print("loops      {} look-alikes accepted, {} open\n", closures["accepted"].get<int>(),
-             closures["open"].get<int>());
-  fmt::print("cpu        {:.3f} s, {:.0f} us a scan (99 %: {:.0f} us), {:.0f} MB\n", summary["cpu_s"].get<double>(),
-             summary["scan_us_p50"].get<double>(), summary["scan_us_p99"].get<double>(),
-             summary["peak_rss_mb"].get<double>());
-  const auto& phase = summary["phase_cpu_s"];
-  fmt::print("           read {:.3f}, match {:.3f}, fit {:.3f}, close {:.3f}, charts {:.3f}, write {:.3f}\n",
-             phase["read"].get<double>(), phase["match"].get<double>(), phase["fit"].get<double>(),
-             phase["close"].get<double>(), phase["charts"].get<double>(), phase["write"].get<double>());
-  fmt::print("map        {}/map.gpkg\n", a.out);
-  for (std::size_t i = 0; i < std::min<std::size_t>(files.size(), 6); ++i) fmt::print("picture    {}\n", files[i]);
-  if (files.size() > 6) fmt::print("           and {} more\n", files.size() - 6);
-}
-
-int finish(MapRun& run, const MapArguments& a) {
-  const double before_report = thread_cpu_seconds();
-  const MapReport report = report_on(run.mapper.map(), !a.no_charts);
-  const double before_charts = thread_cpu_seconds();
-  std::vector<std::string> files;
-  if (!a.no_charts) {
-    Result<std::vector<std::string>> charts = write_charts(run.mapper.map(), report, a.out, a.threads);
-    if (!charts) return report_failure(charts.error().message);
-    files = std::move(*charts);
-  }
-  const double before_write = thread_cpu_seconds();
-  run.phase.fit += before_charts - before_report;
-  run.phase.charts = before_write - before_charts;
-  if (auto done = write_records(run, report, a.out, a.online); !done) return report_failure(done.error().message);
-  run.phase.write = thread_cpu_seconds() - before_write;
-  const Json summary = summarise(run, report, options_json(a));
-  if (auto done = write_whole_file(a.out + "/summary.json", summary.dump(1) + "\n"); !done) {
-    return report_failure(done.error().message);
-  }
-  for (const std::string& warning : run.warnings) report_warning(warning);
-  for (const Skipped& s : run.skipped) {
-    report_warning(fmt::format("{} x {}{}", s.count, s.reason, s.first.empty() ? "" : ", first at " + s.first));
-  }
-  if (run.interrupted) report_warning("interrupted: the map holds what was read until then");
-  if (a.json) {
-    fmt::print("{}\n", summary.dump(1));
-  } else {
-    print_report(run, summary, a, files);
-  }
-  return run.interrupted ? kNotAsAsked : kDone;
-}
-
-int run_verb(const MapArguments& a) {
-  Result<std::vector<RobotLogs>> robots = name_robots(a.logs, a.named);
-  if (!robots) return report_failure(robots.error().message);
-  const Result<OutputFolder> folder = OutputFolder::open(a.out, "summary.json", a.force);
-  if (!folder) return report_failure(folder.error().message);
-  ProgressBar bar;
-  MapJob job;
-  job.robots = std::move(*robots);
-  job.laser = a.laser;
-  job.every = a.every;
-  job.from = a.from;
-  job.to = a.to;
-  job.mapper.closures = !a.no_closures;
-  job.mapper.join_on_evidence = a.join == "evidence";
-  job.progress = [&bar](double share) { bar.show(share, "mapping"); };
-  Result<MapRun> run = run_map(job);
-  if (!run) return report_failure(run.error().message);
-  folder->clear_old_results();
-  return finish(*run, a);
-}
-
-}  // namespace
 
 void add_map_verb(CLI::App& program, int& exit_code) {
   auto a = std::make_shared<MapArguments>();
@@ -137,6 +17,8 @@ void add_map_verb(CLI::App& program, int& exit_code) {
   verb->add_option("--join", a->join, "what may join islands")
       ->check(CLI::IsMember({"sightings", "evidence"}))
       ->capture_default_str();
+  verb->add_option("--decisions", a->decisions_file,
+                   "what an operator decided about the ledger's entries (decisions.json, written by `ledger`)");
   verb->add_option("--every", a->every, "map only every N-th scan")->check(CLI::PositiveNumber)->capture_default_str();
   verb->add_option("--from", a->from, "start this many seconds after a robot's first scan");
   verb->add_option("--to", a->to, "stop this many seconds after a robot's first scan");
@@ -155,7 +37,7 @@ void add_map_verb(CLI::App& program, int& exit_code) {
       "  helicoid map --robot r2=monday.log,tuesday.log --out site --no-charts --json");
   verb->callback([a, &exit_code] {
     if (a->logs.empty() && a->named.empty()) throw CLI::RequiredError("LOG or --robot");
-    exit_code = run_verb(*a);
+    exit_code = run_map_command(*a);
   });
 }
 

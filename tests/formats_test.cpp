@@ -145,6 +145,20 @@ TEST(Formats, DescribesEveryKeyOfInfo) {
   expect_same(keys, documented_keys("info --json"));
 }
 
+TEST(Formats, DescribesEveryKeyOfDecisionsAndExplanations) {
+  const Sandbox box;
+  const std::string sim = box.simulate("sim", {"--robots", "2"});
+  ASSERT_EQ(
+      run({"map", sim + "/robot1.clf.gz", sim + "/robot2.clf.gz", "--no-charts", "--out", box / "site"}).exit_code, 0);
+  Words keys = keys_of(json_of({"explain", box / "site", "0"}));
+  keys.merge(keys_of(json_of({"explain", box / "site", "0,0", "1,1"})));
+  // Lists that are empty here.
+  for (const char* key : {"supports[]", "conflicts[]", "entries[]"}) keys.insert(key);
+  expect_same(keys, documented_keys("explain --json"));
+  ASSERT_EQ(run({"ledger", box / "site", "undo", "0", "--no-charts", "--out", box / "undone"}).exit_code, 0);
+  expect_same(keys_of(Json::parse(bytes_of(box / "undone/decisions.json"))), documented_keys("decisions.json"));
+}
+
 TEST(Formats, DescribesEveryKeyOfABenchmark) {
   Words keys = keys_of(json_of({"bench", "--filter", "rays", "--repeats", "1"}));
   keys.merge(keys_of(json_of({"bench", "--filter", "intel", "--data", "nowhere"})));

@@ -13,5 +13,6 @@ namespace helicoid {
 [[nodiscard]] Experiment relations_experiment();
 [[nodiscard]] Experiment spiral_experiment();
 [[nodiscard]] Experiment teams_experiment();
+[[nodiscard]] Experiment undo_experiment();
 
 }  // namespace helicoid

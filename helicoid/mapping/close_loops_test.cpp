@@ -16,9 +16,10 @@ namespace {
 using synthetic::Drive;
 using synthetic::drive;
 
-Mapper map_drive(const Drive& d, bool closures) {
+Mapper map_drive(const Drive& d, bool closures, std::vector<Decision> decisions = {}) {
   MapperOptions options;
   options.closures = closures;
+  options.decisions = std::move(decisions);
   Mapper mapper(options);
   mapper.add_robot("robot1", {synthetic::lms200()});
   for (const Event& event : d.events) mapper.process(event);
@@ -82,6 +83,63 @@ TEST(Loops, ASecondFinishInducesNothing) {
   const auto before = content_hash(closed.map());
   closed.finish();
   EXPECT_EQ(content_hash(closed.map()), before);
+}
+
+Decision decision_about(const Mapper& mapper, const Hypothesis& h, HypothesisState state) {
+  return {state, h.source, first_place(mapper.map(), h), second_place(mapper.map(), h)};
+}
+
+/// All that was accepted with the first entry that was.
+std::vector<Decision> about_first_set(const Mapper& mapper, HypothesisState state) {
+  std::vector<Decision> decisions;
+  std::optional<std::size_t> with;
+  for (const Hypothesis& h : mapper.ledger()) {
+    if (h.state != HypothesisState::accepted) continue;
+    if (!with) with = h.decided_with;
+    if (h.decided_with == with) decisions.push_back(decision_about(mapper, h, state));
+  }
+  return decisions;
+}
+
+TEST(Loops, WhatAnOperatorRejectsIsNeverActedOnNorWhatSaysTheSame) {
+  const Mapper closed = map_drive(rounds(), true);
+  const std::vector<Decision> decisions = about_first_set(closed, HypothesisState::rejected);
+  ASSERT_FALSE(decisions.empty());
+  const Mapper replay = map_drive(rounds(), true, decisions);
+  std::size_t met = 0;
+  for (std::size_t i = 0; i < replay.ledger().size(); ++i) {
+    const Hypothesis& h = replay.ledger()[i];
+    if (find_decision(decisions, replay.map(), h) != nullptr) {
+      ++met;
+      EXPECT_EQ(h.state, HypothesisState::rejected);
+      EXPECT_EQ(h.decided_by, DecidedBy::operator_);
+    }
+    if (h.state != HypothesisState::accepted) continue;
+    for (const std::size_t k : h.supports) EXPECT_FALSE(replay.ledger()[k].is_withheld()) << i << " agrees with " << k;
+  }
+  EXPECT_GE(met, decisions.size());
+  EXPECT_NE(content_hash(replay.map()), content_hash(closed.map()));
+}
+
+TEST(Loops, RejectedOrLeftOpenTheMapIsTheSame) {
+  const Mapper closed = map_drive(rounds(), true);
+  const Mapper rejected = map_drive(rounds(), true, about_first_set(closed, HypothesisState::rejected));
+  const Mapper open = map_drive(rounds(), true, about_first_set(closed, HypothesisState::open));
+  EXPECT_EQ(content_hash(rejected.map()), content_hash(open.map()));
+}
+
+TEST(Loops, OneEntryIsEnoughForAnOperatorWhoAcceptsIt) {
+  const Mapper closed = map_drive(rounds(), true);
+  const std::vector<Decision> decisions = about_first_set(closed, HypothesisState::accepted);
+  // Alone the first of a set waits for the others; accepted, it closes the loop at once.
+  const Mapper replay = map_drive(rounds(), true, {decisions.front()});
+  const auto accepted = std::find_if(replay.ledger().begin(), replay.ledger().end(), [&](const Hypothesis& h) {
+    return find_decision(decisions, replay.map(), h) != nullptr;
+  });
+  ASSERT_NE(accepted, replay.ledger().end());
+  EXPECT_EQ(accepted->state, HypothesisState::accepted);
+  EXPECT_EQ(accepted->decided_by, DecidedBy::operator_);
+  EXPECT_GT(closure_relations(replay.map()), 0U);
 }
 
 /// Twice along a corridor; the second time every step is a little bent, so that the far end lies metres beside the

@@ -22,6 +22,7 @@ Hypothesis entry_of(const IslandJoin& join) {
   Hypothesis h;
   h.state = HypothesisState::accepted;
   h.source = HypothesisSource::sighting;
+  h.decided_by = DecidedBy::sighting;
   h.a = join.a;
   h.b = join.b;
   h.T_a_b = {join.T_a_b, join.information.inverse()};

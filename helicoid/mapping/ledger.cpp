@@ -21,4 +21,14 @@ const char* name_of(HypothesisSource source) {
   return "unknown";
 }
 
+const char* name_of(DecidedBy who) {
+  switch (who) {
+    case DecidedBy::nobody: return "nobody";
+    case DecidedBy::evidence: return "evidence";
+    case DecidedBy::sighting: return "sighting";
+    case DecidedBy::operator_: return "operator";
+  }
+  return "unknown";
+}
+
 }  // namespace helicoid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,17 +17,31 @@ enum class HypothesisState : std::uint8_t { open, accepted, rejected, distinct }
 enum class HypothesisSource : std::uint8_t { lookalike, sighting, operator_ };
 [[nodiscard]] const char* name_of(HypothesisSource source);
 
+/// Who gave an entry its state.
+enum class DecidedBy : std::uint8_t { nobody, evidence, sighting, operator_ };
+[[nodiscard]] const char* name_of(DecidedBy who);
+
 /// Patch b was perhaps taken where patch a lies.
 struct Hypothesis {
   HypothesisState state = HypothesisState::open;
   HypothesisSource source = HypothesisSource::lookalike;
-  PatchId a, b;                       ///< a < b
-  UncertainPose2 T_a_b;               ///< as aligned
-  double score = 0;                   ///< share of b's points that lie on a's surfaces
-  double ambiguity = 0;               ///< score of the second-best placement over the best one's: 1 = no telling
-  double contradicted = 0;            ///< share of b's points that lie deep in what a's surroundings saw as free
-  std::vector<std::size_t> supports;  ///< entries that agree with this one, by their place in the ledger
-  std::string reason;                 ///< of the state, in words
+  PatchId a, b;                        ///< a < b
+  UncertainPose2 T_a_b;                ///< as aligned
+  double score = 0;                    ///< share of b's points that lie on a's surfaces
+  double ambiguity = 0;                ///< score of the second-best placement over the best one's: 1 = no telling
+  double contradicted = 0;             ///< share of b's points that lie deep in what a's surroundings saw as free
+  std::vector<std::size_t> supports;   ///< earlier entries that agree with this one, by their place in the ledger
+  std::vector<std::size_t> conflicts;  ///< earlier ones that cannot be true together with it
+  DecidedBy decided_by = DecidedBy::nobody;
+  /// The entry with which it was decided: whose arrival completed the set, or that says the same and that the operator
+  /// decided about.
+  std::optional<std::size_t> decided_with;
+  std::string reason;  ///< of the state, in words
+
+  /// An operator has said that it is not to be acted on.
+  [[nodiscard]] bool is_withheld() const {
+    return decided_by == DecidedBy::operator_ && state != HypothesisState::accepted;
+  }
 };
 
 using Ledger = std::vector<Hypothesis>;

@@ -1,8 +1,11 @@
 #include "helicoid/mapping/loop_closer.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "helicoid/manifold/confidence.hpp"
 
@@ -63,22 +66,55 @@ std::vector<std::size_t> LoopCloser::observe(const Map& map, const InformationGr
     std::optional<Hypothesis> found = compare_places(map, graph, candidate, b, mapper_, options_.look_alike);
     if (!found) continue;
     found->reason = kWaits;
-    const std::vector<std::size_t> agreeing = enter(map, graph, about_b, std::move(*found));
-    if (!is_enough(agreeing, options_.least_agreeing, options_.least_way)) continue;
-    const std::vector<std::size_t> now = accept(agreeing);
+    const std::vector<std::size_t> now =
+        enter(map, graph, about_b, std::move(*found), {options_.least_agreeing, options_.least_way});
     accepted.insert(accepted.end(), now.begin(), now.end());
   }
   return accepted;
 }
 
 std::vector<std::size_t> LoopCloser::enter(const Map& map, const InformationGraph& graph,
-                                           std::span<const BoundedPose> about_b, Hypothesis found) {
+                                           std::span<const BoundedPose> about_b, Hypothesis found,
+                                           const Quorum& quorum) {
   const std::size_t entry = ledger_.size();
   ledger_.push_back(std::move(found));
-  std::vector<std::size_t> agreeing = find_support(map, graph, about_b, entry);
-  ledger_[entry].supports = agreeing;
+  compare_with_earlier(map, graph, about_b, entry);
+  const Hypothesis& h = ledger_[entry];
+  if (follow_operator(map, entry)) {
+    return h.state == HypothesisState::accepted ? std::vector{entry} : std::vector<std::size_t>{};
+  }
+  std::vector<std::size_t> agreeing = h.supports;
   agreeing.push_back(entry);
-  return agreeing;
+  return is_enough(agreeing, quorum) ? accept(agreeing) : std::vector<std::size_t>{};
+}
+
+bool LoopCloser::follow_operator(const Map& map, std::size_t entry) {
+  Hypothesis& h = ledger_[entry];
+  if (const Decision* decision = find_decision(mapper_.decisions, map, h)) {
+    h.state = decision->state;
+    h.decided_by = DecidedBy::operator_;
+    h.reason = h.state == HypothesisState::open ? "left open" : "decided without looking at others";
+  } else {
+    const auto withheld =
+        std::find_if(h.supports.begin(), h.supports.end(), [&](std::size_t i) { return ledger_[i].is_withheld(); });
+    if (withheld == h.supports.end()) return false;
+    withhold_with(entry, *withheld);
+  }
+  if (!h.is_withheld()) return true;
+  for (const std::size_t i : h.supports) {
+    const Hypothesis& other = ledger_[i];
+    if (other.state == HypothesisState::open && !other.is_withheld()) withhold_with(i, entry);
+  }
+  return true;
+}
+
+void LoopCloser::withhold_with(std::size_t entry, std::size_t decided) {
+  const Hypothesis& other = ledger_[decided];
+  Hypothesis& h = ledger_[entry];
+  h.state = other.state;
+  h.decided_by = DecidedBy::operator_;
+  h.decided_with = other.decided_with.value_or(decided);
+  h.reason = fmt::format("says the same as entry {}, about which the operator decided", *h.decided_with);
 }
 
 std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing) {
@@ -86,6 +122,8 @@ std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agre
   for (const std::size_t i : agreeing) {
     if (ledger_[i].state != HypothesisState::open) continue;
     ledger_[i].state = HypothesisState::accepted;
+    ledger_[i].decided_by = DecidedBy::evidence;
+    ledger_[i].decided_with = agreeing.back();
     ledger_[i].reason = "agrees with others of the same passage";
     accepted.push_back(i);
   }
@@ -98,33 +136,33 @@ std::vector<std::size_t> LoopCloser::consider_between(const Map& map, const Info
   const PatchId b = found.b;
   const std::vector<BoundedPose> about_b =
       tree_bound(graph, map.poses(), b.value, bound_options(map.patch(b), 0.6, 0.25, 30));
-  const std::vector<std::size_t> agreeing = enter(map, graph, about_b, std::move(found));
-  if (!may_join || !is_enough(agreeing, options_.least_agreeing_islands, options_.least_way_islands)) return {};
-  return accept(agreeing);
+  constexpr Quorum kNever{std::numeric_limits<std::size_t>::max(), HUGE_VAL};
+  return enter(map, graph, about_b, std::move(found),
+               may_join ? Quorum{options_.least_agreeing_islands, options_.least_way_islands} : kNever);
 }
 
-std::vector<std::size_t> LoopCloser::find_support(const Map& map, const InformationGraph& graph,
-                                                  std::span<const BoundedPose> about_b, std::size_t entry) const {
-  const Hypothesis& h = ledger_[entry];
+void LoopCloser::compare_with_earlier(const Map& map, const InformationGraph& graph,
+                                      std::span<const BoundedPose> about_b, std::size_t entry) {
+  Hypothesis& h = ledger_[entry];
   const std::vector<BoundedPose> about_a =
       tree_bound(graph, map.poses(), h.a.value, bound_options(map.patch(h.a), 0.6, 0.25, 30));
-  std::vector<std::size_t> agreeing;
   const std::size_t first = entry > options_.memory ? entry - options_.memory : 0;
-  for (std::size_t i = first; i < entry; ++i) {
+  for (std::size_t i = 0; i < entry; ++i) {
     const Hypothesis& other = ledger_[i];
-    if (other.b == h.b || other.state == HypothesisState::rejected) continue;
+    // What an operator said is not forgotten, and holds for another comparison of the same patch, too.
+    if (!other.is_withheld() && (i < first || other.b == h.b || other.state == HypothesisState::rejected)) continue;
     const BoundedPose* a_other = find(about_a, other.a);
     const BoundedPose* b_other = find(about_b, other.b);
     if (a_other == nullptr || b_other == nullptr) continue;
     const UncertainPose2 around = compound(compound(a_other->relative, other.T_a_b), invert(b_other->relative));
     if (confidence_interval(around.covariance).position > 1.0) continue;
-    if (disagreement(around, h.T_a_b) < options_.consistent) agreeing.push_back(i);
+    const bool agrees = disagreement(around, h.T_a_b) < options_.consistent;
+    (agrees ? h.supports : h.conflicts).push_back(i);
   }
-  return agreeing;
 }
 
-bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing, std::size_t least, double way) const {
-  if (agreeing.size() < least) return false;
+bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const {
+  if (agreeing.size() < quorum.agreeing) return false;
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   bool clear = false;
@@ -133,7 +171,7 @@ bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing, std::size_t
     high = std::max(high, along_[ledger_[i].b.index()]);
     clear = clear || ledger_[i].ambiguity < options_.most_ambiguous;
   }
-  return clear && high - low >= way;
+  return clear && high - low >= quorum.way;
 }
 
 }  // namespace helicoid

@@ -44,12 +44,20 @@ class LoopCloser {
   void follow_ways(const Map& map);
 
  private:
-  /// Enters it; the places of it and of those that agree with it.
+  /// How many entries of different patches must agree, and over what way of the robot, metres.
+  struct Quorum {
+    std::size_t agreeing;
+    double way;
+  };
+  /// Enters it; those that are accepted now.
   std::vector<std::size_t> enter(const Map& map, const InformationGraph& graph, std::span<const BoundedPose> about_b,
-                                 Hypothesis found);
-  std::vector<std::size_t> find_support(const Map& map, const InformationGraph& graph,
-                                        std::span<const BoundedPose> about_b, std::size_t entry) const;
-  [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, std::size_t least, double way) const;
+                                 Hypothesis found, const Quorum& quorum);
+  void compare_with_earlier(const Map& map, const InformationGraph& graph, std::span<const BoundedPose> about_b,
+                            std::size_t entry);
+  /// True if the operator has decided about it, or about one that says the same.
+  bool follow_operator(const Map& map, std::size_t entry);
+  void withhold_with(std::size_t entry, std::size_t decided);
+  [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const;
   std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing);
 
   MapperOptions mapper_;

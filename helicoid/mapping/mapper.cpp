@@ -211,6 +211,7 @@ void Mapper::finish() {
   if (s.options.closures) s.close_what_is_left();
   const double began = thread_seconds();
   fit_islands(s.map, s.editor);
+  choose_origins(s.map, s.editor);
   s.graph = information_graph(s.map);
   for (RobotState& robot : s.robots) robot.stale = true;
   s.times.fit_s += thread_seconds() - began;

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
+
+#include "helicoid/mapping/decision.hpp"
 
 namespace helicoid {
 
@@ -41,6 +44,8 @@ struct MapperOptions {
   bool look_alikes = true;
   /// Islands are joined by what they have in common, not by sightings alone.
   bool join_on_evidence = false;
+  /// What an operator has decided.
+  std::vector<Decision> decisions;
 };
 
 }  // namespace helicoid

@@ -1,0 +1,40 @@
+#include "helicoid/mapping/decision.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace helicoid {
+
+namespace {
+
+constexpr double kSameStamp = 5e-6;  ///< seconds
+
+RobotAtStamp place_of(const Map& map, PatchId id) {
+  const Patch& patch = map.patch(id);
+  return {map.robot(patch.robot).name, patch.stamp};
+}
+
+bool is_same(const RobotAtStamp& x, const RobotAtStamp& y) {
+  return std::abs(x.stamp - y.stamp) <= kSameStamp && x.robot == y.robot;
+}
+
+}  // namespace
+
+RobotAtStamp first_place(const Map& map, const Hypothesis& h) {
+  return place_of(map, h.a);
+}
+RobotAtStamp second_place(const Map& map, const Hypothesis& h) {
+  return place_of(map, h.b);
+}
+
+const Decision* find_decision(std::span<const Decision> decisions, const Map& map, const Hypothesis& h) {
+  if (decisions.empty()) return nullptr;
+  const RobotAtStamp a = first_place(map, h);
+  const RobotAtStamp b = second_place(map, h);
+  const auto found = std::find_if(decisions.rbegin(), decisions.rend(), [&](const Decision& d) {
+    return d.source == h.source && ((is_same(d.a, a) && is_same(d.b, b)) || (is_same(d.a, b) && is_same(d.b, a)));
+  });
+  return found == decisions.rend() ? nullptr : &*found;
+}
+
+}  // namespace helicoid
