@@ -11,10 +11,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json place_json(const Map& map, PatchId id) {
-  const Patch& patch = map.patch(id);
+/// Of a sighting: the robot's name (as it was reported) and the time of the sighting.
+Json place_json(const Map& map, const RobotAtStamp& place, PatchId id) {
   const Pose2& T = map.T_plane_patch(id);
-  return {{"robot", map.robot(patch.robot).name}, {"stamp", patch.stamp}, {"patch", id.value}, {"xy", {T.x, T.y}}};
+  return {{"robot", place.robot}, {"stamp", place.stamp}, {"patch", id.value}, {"xy", {T.x, T.y}}};
 }
 
 Json entry_json(const Map& map, const Hypothesis& h, std::size_t id) {
@@ -23,8 +23,8 @@ Json entry_json(const Map& map, const Hypothesis& h, std::size_t id) {
   return {{"id", id},
           {"state", name_of(h.state)},
           {"source", name_of(h.source)},
-          {"a", place_json(map, h.a)},
-          {"b", place_json(map, h.b)},
+          {"a", place_json(map, first_place(map, h), h.a)},
+          {"b", place_json(map, second_place(map, h), h.b)},
           {"T_a_b", {T.x, T.y, T.yaw}},
           {"covariance", {C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2)}},
           {"score", h.score},
@@ -32,6 +32,8 @@ Json entry_json(const Map& map, const Hypothesis& h, std::size_t id) {
           {"contradicted", h.contradicted},
           {"supports", h.supports},
           {"conflicts", h.conflicts},
+          {"observer", h.seen ? Json(h.seen->observer_first ? "a" : "b") : Json()},
+          {"identified_as", h.seen && h.seen->identified.valid() ? Json(map.robot(h.seen->identified).name) : Json()},
           {"reason", h.reason},
           {"decided_by", h.decided_by == DecidedBy::nobody ? Json() : Json(name_of(h.decided_by))},
           {"decided_with", h.decided_with ? Json(*h.decided_with) : Json()},

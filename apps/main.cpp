@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   helicoid::add_explain_verb(program, exit_code);
   helicoid::add_info_verb(program, exit_code);
   helicoid::add_plot_verb(program, exit_code);
+  helicoid::add_corrupt_verb(program, exit_code);
   helicoid::add_bench_verb(program, exit_code);
   helicoid::add_experiment_verb(program, exit_code);
   try {

@@ -60,7 +60,12 @@ void collect_skipped(MapRun& run, MergedLogs& logs) {
   add("scan that matched nothing; placed by odometry", counts.predicted - counts.empty_scans);
   add("scan without odometry; constant velocity used instead", counts.scans_without_odometry);
   add("sighting of an unknown robot, kept as unidentified", counts.unidentified_sightings);
-  add("sighting that does not determine how two islands lie, kept open", counts.sightings_left);
+  add("sighting of a robot that was nowhere at that time", counts.sightings_without_place);
+  const Ledger& ledger = run.mapper.ledger();
+  add("sighting that is still open: see the ledger",
+      static_cast<std::size_t>(std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) {
+        return h.source == HypothesisSource::sighting && h.state == HypothesisState::open;
+      })));
   add("sighting of the robot itself", counts.self_sightings);
 }
 
@@ -143,23 +148,59 @@ double thread_cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Result<MapRun> run_map(const MapJob& job) {
-  const InterruptGuard guard;
+namespace {
+
+/// One pass over the logs, under these decisions.
+Result<void> pass_over(const MapJob& job, const std::vector<Decision>& decisions, MapRun& run) {
   const double start = thread_cpu_seconds();
-  MapRun run;
   Result<MergedLogs> logs = MergedLogs::open(job.robots);
   if (!logs) return tl::unexpected(logs.error());
-  run.mapper = Mapper(job.mapper);
-  if (auto added = add_robots(job, *logs, run); !added) return tl::unexpected(added.error());
+  MapperOptions options = job.mapper;
+  options.decisions = decisions;
+  run.mapper = Mapper(options);
+  run.scan_seconds.clear();
+  run.lasers.clear();
+  run.logs.clear();
+  if (auto added = add_robots(job, *logs, run); !added) return added;
   const double opened = thread_cpu_seconds();
   const double reading = map_events(job, *logs, run);
-  run.phase.read = opened - start + reading;
-  run.phase.match = thread_cpu_seconds() - opened - reading - run.mapper.times().close_s;
+  run.phase.read += opened - start + reading;
+  run.phase.match += thread_cpu_seconds() - opened - reading - run.mapper.times().close_s;
   run.mapper.finish();
-  collect_skipped(run, *logs);
-  run.phase.fit = run.mapper.times().fit_s;
-  run.phase.close = run.mapper.times().close_s;
+  run.phase.fit += run.mapper.times().fit_s;
+  run.phase.close += run.mapper.times().close_s;
   if (run.scans == 0) return fail("no scan was mapped: the logs hold none in the range that was asked for");
+  run.skipped.clear();
+  run.warnings.clear();
+  collect_skipped(run, *logs);
+  return {};
+}
+
+bool reads_stdin(const MapJob& job) {
+  return std::any_of(job.robots.begin(), job.robots.end(), [](const RobotLogs& r) {
+    return std::find(r.paths.begin(), r.paths.end(), "-") != r.paths.end();
+  });
+}
+
+}  // namespace
+
+Result<MapRun> run_map(const MapJob& job) {
+  const InterruptGuard guard;
+  MapRun run;
+  std::vector<Decision> decisions = job.mapper.decisions;
+  for (;;) {
+    if (auto done = pass_over(job, decisions, run); !done) return tl::unexpected(done.error());
+    ++run.passes;
+    // What was believed at once and what the finished map contradicts is undone: by a pass that never believed it.
+    std::vector<Decision> regrets = run.mapper.regrets();
+    if (regrets.empty() || run.interrupted) break;
+    if (reads_stdin(job)) {
+      run.warnings.push_back(
+          fmt::format("{} sightings turned out wrong, but stdin cannot be read twice: name a file", regrets.size()));
+      break;
+    }
+    decisions.insert(decisions.end(), std::make_move_iterator(regrets.begin()), std::make_move_iterator(regrets.end()));
+  }
   return run;
 }
 

@@ -37,6 +37,7 @@ struct MapRun {
   std::vector<Skipped> skipped;
   std::vector<double> scan_seconds;  ///< thread CPU time of each scan, its reading included, in order
   std::size_t scans = 0;
+  std::size_t passes = 0;  ///< over the logs: more than one if something was believed at first and undone
   bool interrupted = false;
   PhaseTimes phase;
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
@@ -45,7 +46,8 @@ struct MapRun {
   }
 };
 
-/// Reads, maps and fits. Ctrl-C ends the reading; what was mapped until then is kept.
+/// Reads, maps and fits, once more where the finished map contradicts what was believed on the way. Ctrl-C ends the
+/// reading; what was mapped until then is kept.
 [[nodiscard]] Result<MapRun> run_map(const MapJob& job);
 
 /// CPU seconds of this thread so far.

@@ -93,6 +93,7 @@ Json summarise(const MapRun& run, const MapReport& report, const Json& options) 
   for (const Hypothesis& h : run.mapper.ledger())
     closures[name_of(h.state)] = closures[name_of(h.state)].get<int>() + 1;
   json["closures"] = closures;
+  json["passes"] = run.passes;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   json["cpu_s"] = milli(seconds(usage.ru_utime) + seconds(usage.ru_stime));

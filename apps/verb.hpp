@@ -23,6 +23,7 @@ void add_info_verb(CLI::App& program, int& exit_code);
 void add_plot_verb(CLI::App& program, int& exit_code);
 void add_ledger_verb(CLI::App& program, int& exit_code);
 void add_explain_verb(CLI::App& program, int& exit_code);
+void add_corrupt_verb(CLI::App& program, int& exit_code);
 void add_bench_verb(CLI::App& program, int& exit_code);
 void add_experiment_verb(CLI::App& program, int& exit_code);
 

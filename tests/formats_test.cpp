@@ -114,6 +114,14 @@ TEST(Formats, DescribesEveryKeyOfASimulation) {
   expect_same(keys_of(simulation), documented_keys("simulation.json"));
 }
 
+TEST(Formats, DescribesEveryKeyOfLies) {
+  const Sandbox box;
+  const std::string sim = box.simulate("sim", {"--robots", "2"});
+  const Json lies = json_of(
+      {"corrupt", sim + "/robot1.clf.gz", sim + "/robot2.clf.gz", "--false-sightings", "2", "--out", box / "lies"});
+  expect_same(keys_of(lies), documented_keys("lies.json"));
+}
+
 TEST(Formats, DescribesEveryKeyOfAnEvaluation) {
   const Sandbox box;
   const std::string sim = box.simulate("sim");

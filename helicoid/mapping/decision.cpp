@@ -9,8 +9,12 @@ namespace {
 
 constexpr double kSameStamp = 5e-6;  ///< seconds
 
-RobotAtStamp place_of(const Map& map, PatchId id) {
-  const Patch& patch = map.patch(id);
+RobotAtStamp place_of(const Map& map, const Hypothesis& h, bool first) {
+  if (h.seen) {
+    const bool observer = first == h.seen->observer_first;
+    return {observer ? map.robot(h.seen->observer).name : h.seen->observed, h.seen->stamp};
+  }
+  const Patch& patch = map.patch(first ? h.a : h.b);
   return {map.robot(patch.robot).name, patch.stamp};
 }
 
@@ -21,10 +25,10 @@ bool is_same(const RobotAtStamp& x, const RobotAtStamp& y) {
 }  // namespace
 
 RobotAtStamp first_place(const Map& map, const Hypothesis& h) {
-  return place_of(map, h.a);
+  return place_of(map, h, true);
 }
 RobotAtStamp second_place(const Map& map, const Hypothesis& h) {
-  return place_of(map, h.b);
+  return place_of(map, h, false);
 }
 
 const Decision* find_decision(std::span<const Decision> decisions, const Map& map, const Hypothesis& h) {

@@ -22,9 +22,11 @@ struct Decision {
   HypothesisState state = HypothesisState::open;
   HypothesisSource source = HypothesisSource::lookalike;
   RobotAtStamp a, b;
+  DecidedBy by = DecidedBy::operator_;  ///< the evidence of an earlier pass, else
+  std::string reason{};                 ///< in words; may be empty
 };
 
-/// The places that an entry speaks of, as a decision names them.
+/// The places that an entry speaks of, as a decision names them: an unidentified robot is "?".
 [[nodiscard]] RobotAtStamp first_place(const Map& map, const Hypothesis& h);
 [[nodiscard]] RobotAtStamp second_place(const Map& map, const Hypothesis& h);
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "helicoid/geometry/covariance.hpp"
+#include "helicoid/mapping/sighting_fit.hpp"
 
 namespace helicoid {
 
@@ -110,13 +111,6 @@ std::vector<Pose2> starts_of(const Ray& ray) {
     }
   }
   return starts;
-}
-
-bool is_usable(const Sighting& s) {
-  const auto bad = [](const std::optional<double>& value, double sigma) {
-    return value && (!std::isfinite(*value) || !(sigma > 0));
-  };
-  return !bad(s.range, s.sigma_range) && !bad(s.bearing, s.sigma_bearing) && !bad(s.orientation, s.sigma_orientation);
 }
 
 /// The sightings in terms of two patches of the two islands.

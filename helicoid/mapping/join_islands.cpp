@@ -1,7 +1,5 @@
 #include "helicoid/mapping/join_islands.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 
@@ -16,20 +14,6 @@ std::size_t patches_on(const Map& map, IslandId island) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < map.patch_count(); ++i) count += map.island_of(make_id<PatchId>(i)) == island ? 1 : 0;
   return count;
-}
-
-Hypothesis entry_of(const IslandJoin& join) {
-  Hypothesis h;
-  h.state = HypothesisState::accepted;
-  h.source = HypothesisSource::sighting;
-  h.decided_by = DecidedBy::sighting;
-  h.a = join.a;
-  h.b = join.b;
-  h.T_a_b = {join.T_a_b, join.information.inverse()};
-  h.score = 1;
-  h.reason = fmt::format("{} measurements of sightings determine how the islands lie, chi^2 {:.1f}", join.measurements,
-                         join.chi2);
-  return h;
 }
 
 }  // namespace
@@ -50,7 +34,6 @@ void join_islands(MapInProgress& progress, LoopCloser& closer, const IslandJoin&
   move_rigidly(progress, join);
   progress.add(
       {join.a, join.b, RelationKind::sighting, pose_pose_form(join.T_a_b, join.information), join.T_a_b, 0, 0, 0});
-  closer.record(entry_of(join));
   fit_islands(progress.map, progress.editor);
   progress.graph = information_graph(progress.map);
   if (options.closures) close_loops_again(progress, closer, options);

@@ -9,7 +9,7 @@ namespace helicoid {
 /// The smaller island moves as a whole to where the join says.
 void move_rigidly(MapInProgress& progress, const IslandJoin& join);
 
-/// The island with fewer patches moves. The ledger tells of it.
+/// The island with fewer patches moves; the join becomes a relation.
 void join_islands(MapInProgress& progress, LoopCloser& closer, const IslandJoin& join, const MapperOptions& options);
 
 }  // namespace helicoid

@@ -66,7 +66,8 @@ TEST(Islands, OneSightingMakesOneOfTwoAndTheirWallsMeet) {
   const Map& map = mapper.map();
   ASSERT_EQ(map.islands().size(), 1U);
   EXPECT_EQ(mapper.counts().sightings, 1U);
-  EXPECT_EQ(mapper.counts().sightings_left, 0U);
+  EXPECT_EQ(mapper.counts().sightings_without_place, 0U);
+  EXPECT_TRUE(mapper.regrets().empty());
   // Between the robots the map is better than the sighting was: the scans have tied it.
   const auto& a = map.robots()[0].trajectory;
   const auto& b = map.robots()[1].trajectory;

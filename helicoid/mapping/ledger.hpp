@@ -21,6 +21,15 @@ enum class HypothesisSource : std::uint8_t { lookalike, sighting, operator_ };
 enum class DecidedBy : std::uint8_t { nobody, evidence, sighting, operator_ };
 [[nodiscard]] const char* name_of(DecidedBy who);
 
+/// What an entry of a sighting was made from.
+struct SeenRobot {
+  RobotId observer;
+  double stamp = 0;            ///< seconds, of the observer's clock
+  std::string observed;        ///< as it was reported: "?" if it was not identified
+  RobotId identified;          ///< whom it is taken to be of; invalid while that is open
+  bool observer_first = true;  ///< the observer stands at a, the observed at b
+};
+
 /// Patch b was perhaps taken where patch a lies.
 struct Hypothesis {
   HypothesisState state = HypothesisState::open;
@@ -36,7 +45,8 @@ struct Hypothesis {
   /// The entry with which it was decided: whose arrival completed the set, or that says the same and that the operator
   /// decided about.
   std::optional<std::size_t> decided_with;
-  std::string reason;  ///< of the state, in words
+  std::optional<SeenRobot> seen;  ///< of a sighting
+  std::string reason;             ///< of the state, in words
 
   /// An operator has said that it is not to be acted on.
   [[nodiscard]] bool is_withheld() const {

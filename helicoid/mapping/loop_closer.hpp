@@ -37,6 +37,8 @@ class LoopCloser {
   [[nodiscard]] bool is_due(const Map& map, PatchId b) const;
 
   void record(Hypothesis entry) { ledger_.push_back(std::move(entry)); }
+  /// Decides about an entry that was recorded.
+  void revise(std::size_t entry, Hypothesis now) { ledger_[entry] = std::move(now); }
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
   /// How far along its robot's way each patch was kept, metres: up to the last patch that was observed or followed.
   [[nodiscard]] std::span<const double> along() const { return along_; }

@@ -6,7 +6,8 @@
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/fit_islands.hpp"
 #include "helicoid/mapping/island_evidence.hpp"
-#include "helicoid/mapping/join_islands.hpp"
+#include "helicoid/mapping/join_on_sightings.hpp"
+#include "helicoid/mapping/judge_sightings.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 #include "helicoid/mapping/relate.hpp"
@@ -83,23 +84,22 @@ void Mapper::State::take(const Event& event, const Sighting& sighting) {
   }
   const auto observed = std::find_if(map.robots().begin(), map.robots().end(),
                                      [&](const RobotRecord& r) { return r.name == sighting.observed; });
-  if (observed == map.robots().end()) {
-    ++counts.unidentified_sightings;
-    return;
-  }
-  ++counts.sightings;
-  sightings.add(event.robot, make_id<RobotId>(static_cast<std::size_t>(observed - map.robots().begin())), event.stamp,
-                sighting);
+  const bool identified = observed != map.robots().end();
+  ++(identified ? counts.sightings : counts.unidentified_sightings);
+  if (map.robots().size() < 2) return;
+  std::optional<RobotId> id;
+  if (identified) id = make_id<RobotId>(static_cast<std::size_t>(observed - map.robots().begin()));
+  sightings.add(event.robot, id, event.stamp, sighting);
 }
 
 void Mapper::State::join_what_is_determined(bool last) {
-  while (const std::optional<IslandJoin> join = sightings.find_join(map, last)) {
-    const double began = thread_seconds();
-    MapInProgress progress{map, editor, graph};
-    join_islands(progress, closer, *join, options);
+  if (!sightings.place_waiting(map, graph, closer, options.decisions, last) && !last) return;
+  const double began = thread_seconds();
+  MapInProgress progress{map, editor, graph};
+  if (join_on_sightings(progress, closer, sightings, last, options)) {
     for (RobotState& robot : robots) robot.stale = true;
-    times.close_s += thread_seconds() - began;
   }
+  times.close_s += thread_seconds() - began;
 }
 
 Step Mapper::State::start_island(RobotState& robot, const Event& event, const Scan& scan) {
@@ -205,16 +205,21 @@ Step Mapper::process(const Event& event) {
 void Mapper::finish() {
   State& s = *state_;
   s.join_what_is_determined(true);
-  s.counts.sightings_left = s.sightings.left();
+  s.counts.sightings_without_place = s.sightings.waiting();
   if (s.patches_at_last_fit == s.map.patch_count()) return;
   s.patches_at_last_fit = s.map.patch_count();
   if (s.options.closures) s.close_what_is_left();
   const double began = thread_seconds();
   fit_islands(s.map, s.editor);
+  judge_sightings(s.map, s.closer, s.sightings);
   choose_origins(s.map, s.editor);
   s.graph = information_graph(s.map);
   for (RobotState& robot : s.robots) robot.stale = true;
   s.times.fit_s += thread_seconds() - began;
+}
+
+std::vector<Decision> Mapper::regrets() const {
+  return find_regrets(state_->map, state_->graph, state_->closer, state_->sightings);
 }
 
 const Map& Mapper::map() const {

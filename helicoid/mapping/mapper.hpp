@@ -37,9 +37,9 @@ struct MapperCounts {
   std::size_t empty_scans = 0;     ///< scans without a single return
   std::size_t odometry_jumps = 0;  ///< impossible steps, replaced by a constant-velocity prediction
   std::size_t scans_without_odometry = 0;
-  std::size_t sightings = 0;               ///< of another robot of the team
-  std::size_t sightings_left = 0;          ///< of these, how many are still waiting to determine how two islands lie
-  std::size_t unidentified_sightings = 0;  ///< of "?" or of a name that no robot has
+  std::size_t sightings = 0;                ///< of another robot of the team
+  std::size_t sightings_without_place = 0;  ///< of a robot that was nowhere at that time
+  std::size_t unidentified_sightings = 0;   ///< of "?" or of a name that no robot has
   std::size_t self_sightings = 0;
   std::size_t coarse_searches = 0;  ///< restarts at a fan of headings
 };
@@ -64,6 +64,10 @@ class Mapper {
   Step process(const Event& event);
   /// The last global fit, after the last event. Idempotent.
   void finish();
+
+  /// After finish(): what was believed at once and what the finished map contradicts. The same events under these
+  /// decisions besides make a map without it.
+  [[nodiscard]] std::vector<Decision> regrets() const;
 
   [[nodiscard]] const Map& map() const;
   [[nodiscard]] const MapperCounts& counts() const;

@@ -1,39 +1,76 @@
-// Sightings wait until both robots have been placed at their time, and then until they determine how their islands lie.
+// Sightings wait until the robots have been placed at their time; then each is an entry of the ledger.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "helicoid/mapping/island_join.hpp"
+#include "helicoid/mapping/shared_ground.hpp"
+#include "helicoid/mapping/loop_closer.hpp"
 
 namespace helicoid {
 
+/// Where a robot was at the time of a sighting.
+struct PlacedRobot {
+  ManifoldPose pose;
+  /// Of pose.T_patch_robot, in the patch's frame: what the matches left open, and what the clocks do.
+  Matrix3d covariance = Matrix3d::Zero();
+  /// A step to the scan before or after: somewhere on the way the robot was.
+  void add_motion(const Pose2& T_before_after);
+};
+
+/// Whom a sighting may be of, placed on the manifold at its time.
+struct SeenCandidate {
+  RobotId robot;
+  PlacedRobot at;
+  SharedGround ground;  ///< what the scans say of it as long as it lies on another island
+  /// The robots of either island when the sighting was compared last.
+  std::vector<RobotId> observers_side, observed_side;
+};
+
+struct SightingRecord {
+  RobotId observer;
+  double stamp = 0;  ///< seconds, of the observer's clock
+  Sighting sighting;
+  PlacedRobot observer_at;                ///< valid once it is placed
+  std::vector<SeenCandidate> candidates;  ///< one if it was identified
+  std::size_t entry = 0;                  ///< in the ledger
+  std::size_t compared_at = 0;            ///< how many patches there were when it was compared with the scans last
+};
+
 class SightingLog {
  public:
-  /// A sighting of a known robot, at the observer's time.
-  void add(RobotId observer, RobotId observed, double stamp, const Sighting& sighting);
+  /// `observed`: the robot if it was identified, else none: then it may be of any other robot of the map.
+  void add(RobotId observer, std::optional<RobotId> observed, double stamp, const Sighting& sighting);
 
-  /// To be called after every scan: the first pair of islands whose sightings determine how they lie. It is then
-  /// forgotten: sightings within one island are not needed. `last`: no more scans will come.
-  [[nodiscard]] std::optional<IslandJoin> find_join(const Map& map, bool last = false);
+  /// To be called after every scan: enters what can be placed now into the ledger, where the scans contradict it as
+  /// rejected; asks the scans again about what they could not tell when less was mapped. `last`: no more scans will
+  /// come. True if something has become known.
+  bool place_waiting(const Map& map, const InformationGraph& graph, LoopCloser& closer,
+                     std::span<const Decision> decisions, bool last);
 
-  /// Sightings that are still waiting.
-  [[nodiscard]] std::size_t left() const { return waiting_.size() + placed_.size(); }
+  /// Those that are placed, in the order in which they were.
+  [[nodiscard]] std::span<const SightingRecord> placed() const { return placed_; }
+  /// Sightings of robots that were not placed yet.
+  [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
 
  private:
   struct Waiting {
-    RobotId observer, observed;
+    RobotId observer;
+    std::optional<RobotId> observed;
     double stamp = 0;
     Sighting sighting;
   };
-  void place_waiting(const Map& map, bool last);
+  static std::optional<SightingRecord> place(const Map& map, const Waiting& waiting, bool last);
+  bool ask_again(const Map& map, const InformationGraph& graph, LoopCloser& closer, bool last);
 
   std::vector<Waiting> waiting_;
-  std::vector<PlacedSighting> placed_;  ///< each between two islands
-  bool fresh_ = false;                  ///< something was placed since the last look
+  std::vector<SightingRecord> placed_;
 };
 
 /// Where a robot was at a time, between its scans; nothing before its first scan or (unless `last`) after its last.
-[[nodiscard]] std::optional<ManifoldPose> place_at(const Map& map, RobotId robot, double stamp, bool last);
+[[nodiscard]] std::optional<PlacedRobot> place_at(const Map& map, RobotId robot, double stamp, bool last);
+
+/// The ledger's words for a sighting that may be of this candidate.
+[[nodiscard]] Hypothesis entry_of(const SightingRecord& record, const SeenCandidate& candidate);
 
 }  // namespace helicoid

@@ -1,0 +1,146 @@
+#include "helicoid/mapping/join_on_sightings.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "helicoid/mapping/sighting_consensus.hpp"
+#include "helicoid/mapping/sighting_fit.hpp"
+
+namespace helicoid {
+
+namespace {
+
+bool is_open(const LoopCloser& closer, const SightingRecord& record) {
+  const Hypothesis& h = closer.ledger()[record.entry];
+  return h.state == HypothesisState::open && !h.is_withheld();
+}
+
+IslandId island_of(const Map& map, const ManifoldPose& pose) {
+  return map.island_of(pose.patch);
+}
+
+bool is_ordered(const LoopCloser& closer, const SightingRecord& record) {
+  const Hypothesis& h = closer.ledger()[record.entry];
+  return h.state == HypothesisState::accepted && h.decided_by == DecidedBy::operator_;
+}
+
+/// What is open between two islands, as far as the scans have not contradicted it; what an operator accepted in any
+/// case.
+std::vector<SightingOption> options_between(const Map& map, const LoopCloser& closer, const SightingLog& log,
+                                            IslandId x, IslandId y) {
+  std::vector<SightingOption> options;
+  for (std::size_t i = 0; i < log.placed().size(); ++i) {
+    const SightingRecord& record = log.placed()[i];
+    if (!is_usable(record.sighting)) continue;
+    const bool ordered = is_ordered(closer, record);
+    if (!is_open(closer, record) && !ordered) continue;
+    for (std::size_t k = 0; k < record.candidates.size(); ++k) {
+      const SeenCandidate& c = record.candidates[k];
+      const IslandId a = island_of(map, record.observer_at.pose);
+      const IslandId b = island_of(map, c.at.pose);
+      if ((c.ground.verdict == Verdict::contradicted && !ordered) || !((a == x && b == y) || (a == y && b == x)))
+        continue;
+      options.push_back({i, k, {record.observer_at.pose, c.at.pose, record.sighting}, record.candidates.size() == 1});
+    }
+  }
+  return options;
+}
+
+/// True if the scans tell that it is this candidate and no other.
+bool is_told_apart(const SightingRecord& record, std::size_t candidate) {
+  for (std::size_t k = 0; k < record.candidates.size(); ++k) {
+    const Verdict verdict = record.candidates[k].ground.verdict;
+    if ((verdict == Verdict::confirmed) != (k == candidate)) return false;
+  }
+  return true;
+}
+
+/// What the scans say of a join as a whole: the places are those of its newest sighting.
+Verdict verdict_on(const Map& map, const InformationGraph& graph, const SightingConsensus& consensus) {
+  const IslandJoin& join = consensus.join;
+  const std::vector<RobotId> of_a = robots_on(map, map.island_of(join.a));
+  const std::vector<RobotId> of_b = robots_on(map, map.island_of(join.b));
+  const UncertainPose2 T_a_b{join.T_a_b, join.information.inverse()};
+  return compare_ground(map, graph, {{join.a, Pose2{}}, of_a}, {{join.b, Pose2{}}, of_b}, T_a_b).verdict;
+}
+
+bool may_join(const Map& map, const InformationGraph& graph, const LoopCloser& closer, const SightingLog& log,
+              const SightingConsensus& consensus, std::size_t options, bool last) {
+  const bool ordered = std::any_of(consensus.members.begin(), consensus.members.end(),
+                                   [&](const SightingOption& o) { return is_ordered(closer, log.placed()[o.record]); });
+  if (ordered) return true;
+  const auto identified = std::count_if(consensus.members.begin(), consensus.members.end(),
+                                        [](const SightingOption& o) { return o.identified; });
+  const bool told_apart = std::any_of(consensus.members.begin(), consensus.members.end(), [&](const SightingOption& o) {
+    return is_told_apart(log.placed()[o.record], o.candidate);
+  });
+  if (identified == 0 && !told_apart) return false;
+  switch (verdict_on(map, graph, consensus)) {
+    case Verdict::confirmed: return true;
+    case Verdict::contradicted: return false;
+    case Verdict::silent: break;
+  }
+  // One robot's word and nobody's against it; or more of one mind than not.
+  return last && identified > 0 && 2 * consensus.members.size() > options;
+}
+
+/// A pair of islands that open sightings may be of, by the newest sighting.
+std::vector<std::pair<IslandId, IslandId>> pairs_in_question(const Map& map, const LoopCloser& closer,
+                                                             const SightingLog& log) {
+  std::vector<std::pair<IslandId, IslandId>> pairs;
+  for (std::size_t i = log.placed().size(); i-- > 0;) {
+    const SightingRecord& record = log.placed()[i];
+    if (!is_open(closer, record) && !is_ordered(closer, record)) continue;
+    for (const SeenCandidate& c : record.candidates) {
+      const IslandId x = island_of(map, record.observer_at.pose);
+      const IslandId y = island_of(map, c.at.pose);
+      const std::pair pair(std::min(x, y), std::max(x, y));
+      if (x != y && std::count(pairs.begin(), pairs.end(), pair) == 0) pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
+void accept_members(LoopCloser& closer, const SightingLog& log, const SightingConsensus& consensus) {
+  for (const SightingOption& o : consensus.members) {
+    const SightingRecord& record = log.placed()[o.record];
+    if (closer.ledger()[record.entry].state == HypothesisState::accepted) continue;
+    Hypothesis h = entry_of(record, record.candidates[o.candidate]);
+    h.state = HypothesisState::accepted;
+    h.decided_by = DecidedBy::sighting;
+    h.decided_with = log.placed()[consensus.members.back().record].entry;
+    h.reason = fmt::format("{} measurements of {} sightings determine how two islands lie, chi^2 {:.1f}",
+                           consensus.join.measurements, consensus.members.size(), consensus.join.chi2);
+    closer.revise(record.entry, std::move(h));
+  }
+}
+
+/// The newest pair of islands that may be joined now, and how.
+std::optional<SightingConsensus> find_join(const MapInProgress& progress, const LoopCloser& closer,
+                                           const SightingLog& log, bool last) {
+  for (const auto& [x, y] : pairs_in_question(progress.map, closer, log)) {
+    const std::vector<SightingOption> between = options_between(progress.map, closer, log, x, y);
+    for (SightingConsensus& consensus : find_consensuses(progress.map, progress.graph, between)) {
+      if (may_join(progress.map, progress.graph, closer, log, consensus, between.size(), last))
+        return std::move(consensus);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool join_on_sightings(MapInProgress& progress, LoopCloser& closer, const SightingLog& log, bool last,
+                       const MapperOptions& options) {
+  bool joined = false;
+  while (const std::optional<SightingConsensus> consensus = find_join(progress, closer, log, last)) {
+    accept_members(closer, log, *consensus);
+    join_islands(progress, closer, consensus->join, options);
+    joined = true;
+  }
+  return joined;
+}
+
+}  // namespace helicoid

@@ -1,0 +1,151 @@
+#include "helicoid/mapping/judge_sightings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "helicoid/fit/relative_covariance.hpp"
+#include "helicoid/manifold/confidence.hpp"
+#include "helicoid/mapping/sighting_fit.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// The exact relative covariance of any two places of one island (eq. 9-10), factorised when first asked for.
+class ExactPoses {
+ public:
+  explicit ExactPoses(const Map& map) : map_(map) {
+    for (Island& island : map.islands()) {
+      const IslandId id = island.id;
+      islands_.emplace(id, Known{std::move(island), {}});
+    }
+  }
+  /// T_p_q with its covariance, noise floors of the two scans included; nothing if the map leaves it open.
+  std::optional<UncertainPose2> between(const PlacedRobot& robot_p, const PlacedRobot& robot_q) {
+    const ManifoldPose& p = robot_p.pose;
+    const ManifoldPose& q = robot_q.pose;
+    Known& known = islands_.at(map_.island_of(p.patch));
+    if (!known.covariance) factorise(known);
+    if (!known.covariance->is_determined()) return std::nullopt;
+    UncertainPose2 T{map_.T_plane_patch(p.patch).inverse() * map_.T_plane_patch(q.patch), Matrix3d::Zero()};
+    if (p.patch != q.patch) T = known.covariance->of(place(known.island, p.patch), place(known.island, q.patch));
+    T = compound(compound(invert({p.T_patch_robot, robot_p.covariance}), T), {q.T_patch_robot, robot_q.covariance});
+    const LaserModel& of_p = map_.patch(p.patch).laser;
+    const LaserModel& of_q = map_.patch(q.patch).laser;
+    T.covariance = with_noise_floor(T, noise_floor(of_p.floor_position, of_p.floor_heading),
+                                    noise_floor(of_q.floor_position, of_q.floor_heading));
+    return T;
+  }
+
+ private:
+  struct Known {
+    Island island;
+    std::unique_ptr<RelativeCovariance> covariance;
+  };
+  static std::uint32_t place(const Island& island, PatchId id) {
+    const auto at = std::lower_bound(island.patches.begin(), island.patches.end(), id);
+    return static_cast<std::uint32_t>(at - island.patches.begin());
+  }
+  void factorise(Known& known) const {
+    std::vector<Pose2> poses;
+    for (const PatchId id : known.island.patches) poses.push_back(map_.T_plane_patch(id));
+    const std::vector<GraphEdge> edges = graph_edges(map_, known.island);
+    known.covariance = std::make_unique<RelativeCovariance>(poses, edges);
+  }
+  const Map& map_;
+  std::map<IslandId, Known> islands_;
+};
+
+/// A sighting beside the finished map, for one candidate.
+struct Judged {
+  SightingFit fit;
+  UncertainPose2 T;  ///< T_observer_observed as the map has it
+};
+std::optional<Judged> judge(const Map& map, ExactPoses& exact, const SightingRecord& record, const SeenCandidate& c) {
+  if (map.island_of(record.observer_at.pose.patch) != map.island_of(c.at.pose.patch) || !is_usable(record.sighting))
+    return std::nullopt;
+  const std::optional<UncertainPose2> T = exact.between(record.observer_at, c.at);
+  // Where the map itself is too vague, agreement would mean nothing.
+  if (!T || confidence_interval(T->covariance).position > 1.0) return std::nullopt;
+  return Judged{fit_of(record.sighting, *T), *T};
+}
+
+bool is_open(const Hypothesis& h) {
+  return h.state == HypothesisState::open && !h.is_withheld();
+}
+
+void settle(const Map& map, LoopCloser& closer, ExactPoses& exact, const SightingRecord& record) {
+  std::vector<const SeenCandidate*> fitting;
+  std::size_t judged = 0;
+  std::optional<Judged> last;
+  for (const SeenCandidate& c : record.candidates) {
+    const std::optional<Judged> found = judge(map, exact, record, c);
+    if (!found) continue;
+    ++judged;
+    last = found;
+    if (found->fit.measurements > 0 && found->fit.agrees()) fitting.push_back(&c);
+  }
+  if (judged == 0) return;
+  Hypothesis h = closer.ledger()[record.entry];
+  if (fitting.size() == 1 && judged == record.candidates.size()) {
+    h = entry_of(record, *fitting.front());
+    h.state = HypothesisState::accepted;
+    h.reason = "fits the map as it has become by other evidence";
+  } else if (!fitting.empty()) {
+    h.reason = "may be of more robots than one";
+  } else if (judged == record.candidates.size()) {
+    h.state = HypothesisState::rejected;
+    h.reason = fmt::format("does not fit the map: there the robot was {:.2f} m away in direction {:.0f} deg",
+                           last->T.T_a_b.distance(), degrees(std::atan2(last->T.T_a_b.y, last->T.T_a_b.x)));
+  }
+  if (h.state != HypothesisState::open) h.decided_by = DecidedBy::evidence;
+  closer.revise(record.entry, std::move(h));
+}
+
+}  // namespace
+
+void judge_sightings(const Map& map, LoopCloser& closer, const SightingLog& log) {
+  ExactPoses exact(map);
+  for (const SightingRecord& record : log.placed()) {
+    if (is_open(closer.ledger()[record.entry])) settle(map, closer, exact, record);
+  }
+}
+
+std::vector<Decision> find_regrets(const Map& map, const InformationGraph& graph, const LoopCloser& closer,
+                                   const SightingLog& log) {
+  ExactPoses exact(map);
+  std::vector<Decision> contradicted;
+  std::optional<Decision> worst;
+  double worst_chi2 = 0;
+  for (const SightingRecord& record : log.placed()) {
+    const Hypothesis& h = closer.ledger()[record.entry];
+    if (h.state != HypothesisState::accepted || h.decided_by != DecidedBy::sighting) continue;
+    const SeenCandidate& of = *std::find_if(record.candidates.begin(), record.candidates.end(),
+                                            [&](const SeenCandidate& c) { return c.robot == h.seen->identified; });
+    Decision regret{HypothesisState::rejected, HypothesisSource::sighting, first_place(map, h),
+                    second_place(map, h),      DecidedBy::evidence,        ""};
+    const Pose2 T_map = map.project(record.observer_at.pose).inverse() * map.project(of.at.pose);
+    const SharedGround ground = compare_ground(map, graph, {record.observer_at.pose, of.observers_side},
+                                               {of.at.pose, of.observed_side}, {T_map, Matrix3d::Zero()});
+    if (ground.verdict == Verdict::contradicted) {
+      regret.reason = fmt::format("what was mapped later contradicts it: {} points agree, {} lie deep in free space",
+                                  ground.agreeing, ground.against);
+      contradicted.push_back(std::move(regret));
+      continue;
+    }
+    if (ground.verdict == Verdict::confirmed) continue;
+    const std::optional<Judged> found = judge(map, exact, record, of);
+    if (!found || found->fit.agrees() || found->fit.chi2 <= worst_chi2) continue;
+    worst_chi2 = found->fit.chi2;
+    regret.reason = fmt::format("what was mapped later leads elsewhere: chi^2 {:.1f}", worst_chi2);
+    worst = std::move(regret);
+  }
+  // One that the scans contradict may be why another does not fit.
+  if (contradicted.empty() && worst) contradicted.push_back(std::move(*worst));
+  return contradicted;
+}
+
+}  // namespace helicoid

@@ -1,0 +1,43 @@
+// What the patches about two places say of each other, once it is supposed how the places lie: the test of every
+// statement that comes from elsewhere than the scans.
+#pragma once
+
+#include "helicoid/mapping/map_in_progress.hpp"
+
+namespace helicoid {
+
+enum class Verdict : std::uint8_t { silent, confirmed, contradicted };
+
+struct SharedGround {
+  int agreeing = 0;  ///< correspondences
+  int against = 0;   ///< points of one view that lie deep in what another saw as free
+  Verdict verdict = Verdict::silent;
+  [[nodiscard]] double share() const { return agreeing + against > 0 ? agreeing / double(agreeing + against) : 0; }
+};
+
+/// A place and the robots whose patches about it are asked: those of its island before it was joined to the other's, or
+/// one map would be found to agree with itself.
+struct Ground {
+  ManifoldPose place;
+  std::span<const RobotId> robots;
+};
+
+struct SharedGroundOptions {
+  double reach = 4;         ///< about either place, metres
+  double most_apart = 8;    ///< two patches that are compared, metres
+  std::size_t patches = 6;  ///< of either place at most, the nearest
+  int least_said = 200;     ///< less is no evidence
+  double least_agreeing = 0.5;
+  double deep = 0.35;  ///< metres
+};
+
+/// Compares the patches about p, as far as the map is sure of them there (eq. 12), with those about q; `T_p_q` relates
+/// the two places. Each pair may move within the covariance to where it fits best.
+[[nodiscard]] SharedGround compare_ground(const Map& map, const InformationGraph& graph, const Ground& p,
+                                          const Ground& q, const UncertainPose2& T_p_q,
+                                          const SharedGroundOptions& options = {});
+
+/// The robots that made patches of an island, ascending.
+[[nodiscard]] std::vector<RobotId> robots_on(const Map& map, IslandId island);
+
+}  // namespace helicoid
