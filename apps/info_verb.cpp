@@ -36,11 +36,11 @@ Json describe_map(const Map& map, const std::string& path) {
 
 Json describe_log(MergedLogs& logs, const std::string& path) {
   Json json = {{"file", path}, {"kind", "CARMEN log"}};
-  std::size_t scans = 0, odometry = 0, sightings = 0, backwards = 0;
+  std::size_t scans = 0, odometry = 0, sightings = 0, lookalikes = 0, backwards = 0;
   double first = 0, last = 0, length = 0;
   Pose2 previous;
   while (const Event* event = logs.next()) {
-    if (scans + odometry + sightings == 0) first = last = event->stamp;
+    if (scans + odometry + sightings + lookalikes == 0) first = last = event->stamp;
     if (event->stamp < last) ++backwards;
     last = std::max(last, event->stamp);
     if (const auto* scan = std::get_if<Scan>(&event->body)) {
@@ -48,8 +48,10 @@ Json describe_log(MergedLogs& logs, const std::string& path) {
       previous = scan->T_odom_robot;
     } else if (std::holds_alternative<Odometry>(event->body)) {
       ++odometry;
-    } else {
+    } else if (std::holds_alternative<Sighting>(event->body)) {
       ++sightings;
+    } else {
+      ++lookalikes;
     }
   }
   const CarmenReader& reader = *logs.robots().front().reader;
@@ -62,6 +64,7 @@ Json describe_log(MergedLogs& logs, const std::string& path) {
                {"scans", scans},
                {"odometry", odometry},
                {"sightings", sightings},
+               {"lookalikes", lookalikes},
                {"duration_s", last - first},
                {"odometry_path_m", length},
                {"stamps_going_back", backwards},

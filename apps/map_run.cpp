@@ -61,6 +61,7 @@ void collect_skipped(MapRun& run, MergedLogs& logs) {
   add("scan without odometry; constant velocity used instead", counts.scans_without_odometry);
   add("sighting of an unknown robot, kept as unidentified", counts.unidentified_sightings);
   add("sighting of a robot that was nowhere at that time", counts.sightings_without_place);
+  add("look-alike with a robot that is unknown or was nowhere at that time", counts.lookalikes_of_nobody);
   const Ledger& ledger = run.mapper.ledger();
   add("sighting that is still open: see the ledger",
       static_cast<std::size_t>(std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) {

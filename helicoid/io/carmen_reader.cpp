@@ -135,6 +135,7 @@ const Event* CarmenReader::parse(std::string_view line) {
   if (starts_with(line, "ROBOTLASER1")) return parse_robot_laser(after(line, "ROBOTLASER1"), true);
   if (starts_with(line, "RAWLASER1")) return parse_robot_laser(after(line, "RAWLASER1"), false);
   if (starts_with(line, "SIGHTING")) return parse_sighting(after(line, "SIGHTING"));
+  if (starts_with(line, "LOOKALIKE")) return parse_lookalike(after(line, "LOOKALIKE"));
   if (starts_with(line, "PARAM") || starts_with(line, "SYNC")) return nullptr;
   return skip("message of a kind that is not mapped", line.substr(0, std::min<std::size_t>(line.find(' '), 24)));
 }
@@ -240,31 +241,6 @@ const Event* CarmenReader::parse_odometry(TextCursor cursor) {
   has_odometry_ = true;
   other_event_.stamp = stamp.value;
   other_event_.body = Odometry{T_odom_robot};
-  return &other_event_;
-}
-
-const Event* CarmenReader::parse_sighting(TextCursor cursor) {
-  cursor.skip_blanks();
-  const char* name = cursor.at;
-  while (cursor.at != cursor.end && *cursor.at != ' ') ++cursor.at;
-  Sighting sighting;
-  sighting.observed.assign(name, cursor.at);
-  double values[7] = {};  // range bearing orientation, their sigmas, stamp
-  for (double& value : values) {
-    const ReadNumber number = read_number(cursor);
-    if (!number.ok) return skip("sighting with wrong numbers", "SIGHTING");
-    value = number.value;
-  }
-  const auto measured = [](double v) { return std::isfinite(v) ? std::optional<double>(v) : std::nullopt; };
-  sighting.range = measured(values[0]);
-  sighting.bearing = measured(values[1]);
-  sighting.orientation = measured(values[2]);
-  sighting.sigma_range = values[3];
-  sighting.sigma_bearing = values[4];
-  sighting.sigma_orientation = values[5];
-  if (!std::isfinite(values[6])) return skip("sighting with wrong numbers", "SIGHTING");
-  other_event_.stamp = values[6];
-  other_event_.body = std::move(sighting);
   return &other_event_;
 }
 

@@ -43,6 +43,8 @@ class CarmenReader {
   const Event* parse_robot_laser(TextCursor cursor, bool with_pose);
   const Event* parse_odometry(TextCursor cursor);
   const Event* parse_sighting(TextCursor cursor);
+  const Event* parse_lookalike(TextCursor cursor);
+  static std::string read_name(TextCursor& cursor);
   bool read_ranges(TextCursor& cursor, std::size_t count);
   const Event* finish_scan(const BeamLayout& layout, double stamp);
   void remove_motion(Scan& scan, double stamp);

@@ -116,6 +116,18 @@ TEST(CarmenReader, WhatASightingDidNotMeasureIsEmpty) {
   EXPECT_EQ(unknown.bearing, 0.25);
 }
 
+TEST(CarmenReader, ReadsWhatAnotherProgramTakesForTheSamePlace) {
+  const std::vector<Event> events = events_of("LOOKALIKE robot1 912.5 0.5 -1.5 0.25 0.1 0.03 1000 camera 1\n");
+  ASSERT_EQ(events.size(), 1U);
+  const auto& alike = std::get<Lookalike>(events[0].body);
+  EXPECT_EQ(alike.robot, "robot1");
+  EXPECT_EQ(alike.stamp, 912.5);
+  EXPECT_EQ(alike.T_there_robot, (Pose2{0.5, -1.5, 0.25}));
+  EXPECT_EQ(alike.sigma_position, 0.1);
+  EXPECT_EQ(alike.sigma_heading, 0.03);
+  EXPECT_EQ(events[0].stamp, 1000);
+}
+
 TEST(CarmenReader, ParametersAndCommentsArePassedOverOthersCounted) {
   CarmenReader reader =
       reader_of("# a comment\nPARAM robot_length 0.5\nSYNC x\n\nTRUEPOS 1 2 3\nTRUEPOS 1 2 3\n" + kOdometry);
@@ -136,7 +148,8 @@ TEST(CarmenReader, BrokenLinesAreCountedOneByOne) {
   for (const char* line :
        {"FLASER x 1", "FLASER 0 0 0 0 0 0 0 1 h 1", "FLASER -3 1", "FLASER 1e12 1", "FLASER nan 1",
         "FLASER 2 1 2 0 0 0 0 0 nan 1 h 1", "FLASER 2 1 2 0 0 0 0 0 0 inf h 1", "ODOM 1 2", "ODOM nan 2 3 0 0 0 1 h 1",
-        "SIGHTING robot2 1 2", "SIGHTING", "ROBOTLASER1 0 0 0 0 0 0 0 4 1 2 3 4 0",
+        "SIGHTING robot2 1 2", "SIGHTING", "LOOKALIKE robot1", "LOOKALIKE robot1 1 0 0 0 0 0.1 2 h 1",
+        "LOOKALIKE robot1 1 0 nan 0 0.1 0.1 2 h 1", "ROBOTLASER1 0 0 0 0 0 0 0 4 1 2 3 4 0",
         "RAWLASER1 0 0 1 0.5 1 0 0 2 1 2 999999999 1 h 1", "\x01\x02\x03"}) {
     SCOPED_TRACE(line);
     CarmenReader reader = reader_of(std::string(line) + "\n" + kOdometry);

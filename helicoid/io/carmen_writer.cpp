@@ -26,6 +26,10 @@ void append_carmen(std::string& log, const Event& event, const std::string& host
     log += "ODOM";
     append_pose(log, odometry->T_odom_robot);
     log += " 0 0 0";
+  } else if (const auto* alike = std::get_if<Lookalike>(&event.body)) {
+    fmt::format_to(std::back_inserter(log), "LOOKALIKE {} {:.6f}", alike->robot, alike->stamp);
+    append_pose(log, alike->T_there_robot);
+    fmt::format_to(std::back_inserter(log), " {:.4f} {:.4f}", alike->sigma_position, alike->sigma_heading);
   } else {
     const auto& s = std::get<Sighting>(event.body);
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -7,7 +7,7 @@
 
 namespace helicoid {
 
-/// Appends the event's line: FLASER, ODOM or SIGHTING; ranges to the centimetre, poses and stamps to 1e-6.
+/// Appends the event's line: FLASER, ODOM, SIGHTING or LOOKALIKE; ranges to the centimetre, poses and stamps to 1e-6.
 void append_carmen(std::string& log, const Event& event, const std::string& host);
 
 }  // namespace helicoid

@@ -104,9 +104,7 @@ bool compare_islands(MapInProgress& progress, LoopCloser& closer, const Island& 
     if (!h) continue;
     const std::vector<std::size_t> accepted = closer.consider_between(map, progress.graph, std::move(*h), may_join);
     if (accepted.empty()) continue;
-    move_rigidly(progress, join_of(closer.ledger()[accepted.back()]));
-    act_on(progress, closer, accepted, mapper);
-    close_loops_again(progress, closer, mapper);
+    act_on_or_join(progress, closer, accepted, mapper);
     return true;
   }
   return false;
@@ -130,6 +128,15 @@ bool join_on_evidence(MapInProgress& progress, LoopCloser& closer, bool may_join
     joined = joined || again;
   }
   return joined;
+}
+
+void act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,
+                    const MapperOptions& mapper) {
+  const Hypothesis h = closer.ledger()[accepted.back()];
+  const bool joins = progress.map.island_of(h.a) != progress.map.island_of(h.b);
+  if (joins) move_rigidly(progress, join_of(h));
+  act_on(progress, closer, accepted, mapper);
+  if (joins) close_loops_again(progress, closer, mapper);
 }
 
 }  // namespace helicoid

@@ -19,4 +19,9 @@ struct IslandEvidenceOptions {
 bool join_on_evidence(MapInProgress& progress, LoopCloser& closer, bool may_join, const MapperOptions& mapper,
                       const IslandEvidenceOptions& options = {});
 
+/// Acts on entries that were accepted together, of one island or between two: these are brought into rough alignment
+/// first (IV-C).
+void act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,
+                    const MapperOptions& mapper);
+
 }  // namespace helicoid

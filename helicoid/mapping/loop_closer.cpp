@@ -132,6 +132,7 @@ std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agre
 
 std::vector<std::size_t> LoopCloser::consider_between(const Map& map, const InformationGraph& graph, Hypothesis found,
                                                       bool may_join) {
+  follow_ways(map);
   found.reason = may_join ? kWaits : "a proposal: islands are joined by sightings";
   const PatchId b = found.b;
   const std::vector<BoundedPose> about_b =
@@ -139,6 +140,14 @@ std::vector<std::size_t> LoopCloser::consider_between(const Map& map, const Info
   constexpr Quorum kNever{std::numeric_limits<std::size_t>::max(), HUGE_VAL};
   return enter(map, graph, about_b, std::move(found),
                may_join ? Quorum{options_.least_agreeing_islands, options_.least_way_islands} : kNever);
+}
+
+std::vector<std::size_t> LoopCloser::consider_within(const Map& map, const InformationGraph& graph, Hypothesis found) {
+  follow_ways(map);
+  found.reason = kWaits;
+  const std::vector<BoundedPose> about_b =
+      tree_bound(graph, map.poses(), found.b.value, bound_options(map.patch(found.b), 0.6, 0.25, 30));
+  return enter(map, graph, about_b, std::move(found), {options_.least_agreeing, options_.least_way});
 }
 
 void LoopCloser::compare_with_earlier(const Map& map, const InformationGraph& graph,

@@ -31,6 +31,9 @@ class LoopCloser {
   std::vector<std::size_t> consider_between(const Map& map, const InformationGraph& graph, Hypothesis found,
                                             bool may_join);
 
+  /// A look-alike of one island that was found elsewhere. The entries that are accepted now.
+  std::vector<std::size_t> consider_within(const Map& map, const InformationGraph& graph, Hypothesis found);
+
   /// Lets every patch be looked at once more, from the first on.
   void start_again(const Map& map);
   /// True if the robot has gone on far enough since the last search for another one at this patch.

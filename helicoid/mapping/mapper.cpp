@@ -82,21 +82,32 @@ void Mapper::State::take(const Event& event, const Sighting& sighting) {
     ++counts.self_sightings;
     return;
   }
-  const auto observed = std::find_if(map.robots().begin(), map.robots().end(),
-                                     [&](const RobotRecord& r) { return r.name == sighting.observed; });
-  const bool identified = observed != map.robots().end();
-  ++(identified ? counts.sightings : counts.unidentified_sightings);
-  if (map.robots().size() < 2) return;
-  std::optional<RobotId> id;
-  if (identified) id = make_id<RobotId>(static_cast<std::size_t>(observed - map.robots().begin()));
-  sightings.add(event.robot, id, event.stamp, sighting);
+  const std::optional<RobotId> observed = robot_named(sighting.observed);
+  ++(observed ? counts.sightings : counts.unidentified_sightings);
+  if (map.robots().size() > 1) sightings.add(event.robot, observed, event.stamp, sighting);
+}
+
+void Mapper::State::take(const Event& event, const Lookalike& alike) {
+  const std::optional<RobotId> there = robot_named(alike.robot);
+  ++(there ? counts.reported_lookalikes : counts.lookalikes_of_nobody);
+  if (there) reported.add(event.robot, *there, event.stamp, alike);
+}
+
+std::optional<RobotId> Mapper::State::robot_named(const std::string& name) const {
+  const auto robot =
+      std::find_if(map.robots().begin(), map.robots().end(), [&](const RobotRecord& r) { return r.name == name; });
+  if (robot == map.robots().end()) return std::nullopt;
+  return make_id<RobotId>(static_cast<std::size_t>(robot - map.robots().begin()));
 }
 
 void Mapper::State::join_what_is_determined(bool last) {
-  if (!sightings.place_waiting(map, graph, closer, options.decisions, last) && !last) return;
   const double began = thread_seconds();
   MapInProgress progress{map, editor, graph};
-  if (join_on_sightings(progress, closer, sightings, last, options)) {
+  bool changed = options.closures && reported.take_placed(progress, closer, last, options);
+  if (sightings.place_waiting(map, graph, closer, options.decisions, last) || last) {
+    changed = join_on_sightings(progress, closer, sightings, last, options) || changed;
+  }
+  if (changed) {
     for (RobotState& robot : robots) robot.stale = true;
   }
   times.close_s += thread_seconds() - began;
@@ -199,6 +210,7 @@ Step Mapper::process(const Event& event) {
     return step;
   }
   if (const auto* sighting = std::get_if<Sighting>(&event.body)) state_->take(event, *sighting);
+  if (const auto* alike = std::get_if<Lookalike>(&event.body)) state_->take(event, *alike);
   return {};
 }
 
@@ -206,6 +218,7 @@ void Mapper::finish() {
   State& s = *state_;
   s.join_what_is_determined(true);
   s.counts.sightings_without_place = s.sightings.waiting();
+  s.counts.lookalikes_of_nobody += s.reported.waiting();
   if (s.patches_at_last_fit == s.map.patch_count()) return;
   s.patches_at_last_fit = s.map.patch_count();
   if (s.options.closures) s.close_what_is_left();

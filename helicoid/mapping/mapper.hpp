@@ -39,6 +39,8 @@ struct MapperCounts {
   std::size_t scans_without_odometry = 0;
   std::size_t sightings = 0;                ///< of another robot of the team
   std::size_t sightings_without_place = 0;  ///< of a robot that was nowhere at that time
+  std::size_t reported_lookalikes = 0;      ///< by another program
+  std::size_t lookalikes_of_nobody = 0;     ///< with an unknown robot, or one that was nowhere at that time
   std::size_t unidentified_sightings = 0;   ///< of "?" or of a name that no robot has
   std::size_t self_sightings = 0;
   std::size_t coarse_searches = 0;  ///< restarts at a fan of headings

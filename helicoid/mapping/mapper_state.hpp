@@ -4,6 +4,7 @@
 #include "helicoid/align/align_scan.hpp"
 #include "helicoid/mapping/close_loops.hpp"
 #include "helicoid/mapping/mapper.hpp"
+#include "helicoid/mapping/reported_places.hpp"
 #include "helicoid/mapping/robot_state.hpp"
 #include "helicoid/mapping/sighting_log.hpp"
 
@@ -18,6 +19,7 @@ struct Mapper::State {
   InformationGraph graph;
   LoopCloser closer;
   SightingLog sightings;
+  ReportedPlaces reported;
   std::vector<RobotState> robots;
   MapperCounts counts;
   MapperTimes times;
@@ -34,7 +36,9 @@ struct Mapper::State {
   Alignment match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior, const Motion& motion,
                              const Alignment& failed, const LaserModel& laser);
   bool is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan, std::size_t points) const;
+  std::optional<RobotId> robot_named(const std::string& name) const;
   void take(const Event& event, const Sighting& sighting);
+  void take(const Event& event, const Lookalike& alike);
   void join_what_is_determined(bool last);
   PatchId keep(RobotState& robot, const Event& event, const Scan& scan);
   void relate_to_last(RobotState& robot, PatchId id);

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "helicoid/mapping/shared_ground.hpp"
 #include "helicoid/mapping/loop_closer.hpp"
+#include "helicoid/mapping/shared_ground.hpp"
 
 namespace helicoid {
 

@@ -36,10 +36,19 @@ struct Sighting {
   double sigma_orientation = 0;
 };
 
+/// Another program's word (a camera that recognises places, say) that the robot is where some robot was.
+struct Lookalike {
+  std::string robot;          ///< who was there: this robot or another
+  double stamp = 0;           ///< when, by that robot's clock, seconds
+  Pose2 T_there_robot;        ///< where the robot stands now, seen from there
+  double sigma_position = 0;  ///< of either axis, metres
+  double sigma_heading = 0;   ///< radians
+};
+
 struct Event {
   RobotId robot;
   double stamp = 0;  ///< seconds, of the robot's own clock (CARMEN: ipc time)
-  std::variant<Odometry, Scan, Sighting> body;
+  std::variant<Odometry, Scan, Sighting, Lookalike> body;
 };
 
 }  // namespace helicoid
