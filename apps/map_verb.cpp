@@ -1,13 +1,16 @@
 // helicoid map: logs in, a map out.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "apps/map_summary.hpp"
+#include "apps/map_team.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/progress_bar.hpp"
 #include "apps/verb.hpp"
 #include "helicoid/base/whole_file.hpp"
+#include "helicoid/io/mrclam_reader.hpp"
 
 namespace helicoid {
 
@@ -104,7 +107,39 @@ int finish(MapRun& run, const MapArguments& a) {
   return run.interrupted ? kNotAsAsked : kDone;
 }
 
+/// The options given that have no meaning without scans.
+std::vector<std::string> scan_options(const MapArguments& a) {
+  std::vector<std::string> given;
+  const auto add = [&](const char* name, bool is_given) {
+    if (is_given) given.emplace_back(name);
+  };
+  add("--robot", !a.named.empty());
+  add("--laser", !a.laser.empty());
+  add("--join", a.join != "sightings");
+  add("--every", a.every != 1);
+  add("--from", a.from != 0);
+  add("--to", a.to < 1e300);
+  add("--no-closures", a.no_closures);
+  add("--online", a.online);
+  return given;
+}
+
+int run_team_folder(const std::string& folder, const MapArguments& a) {
+  if (a.logs.size() > 1) {
+    return report_failure(fmt::format("{}: is an MRCLAM folder, a team of its own; name it alone", folder));
+  }
+  if (const std::vector<std::string> given = scan_options(a); !given.empty()) {
+    return report_failure(
+        fmt::format("{}: is an MRCLAM folder and holds no laser scans; leave out {}, which say{} "
+                    "what to do with scans",
+                    folder, fmt::join(given, ", "), given.size() == 1 ? "s" : ""));
+  }
+  return map_team({folder, a.out, a.no_charts, a.force, a.json});
+}
+
 int run_verb(const MapArguments& a) {
+  const auto team = std::find_if(a.logs.begin(), a.logs.end(), is_mrclam_folder);
+  if (team != a.logs.end()) return run_team_folder(*team, a);
   Result<std::vector<RobotLogs>> robots = name_robots(a.logs, a.named);
   if (!robots) return report_failure(robots.error().message);
   const Result<OutputFolder> folder = OutputFolder::open(a.out, "summary.json", a.force);
@@ -130,7 +165,9 @@ int run_verb(const MapArguments& a) {
 void add_map_verb(CLI::App& program, int& exit_code) {
   auto a = std::make_shared<MapArguments>();
   CLI::App* verb = program.add_subcommand("map", "Map the logs of one or more robots");
-  verb->add_option("LOG", a->logs, "CARMEN logs, plain or .gz, - for stdin; each is a robot named by its base name");
+  verb->add_option(
+      "LOG", a->logs,
+      "CARMEN logs, plain or .gz, - for stdin; each is a robot named by its base name; or one MRCLAM folder");
   verb->add_option("--robot", a->named, "NAME=LOG[,LOG...]: a robot with a name and one or more logs")->take_all();
   verb->add_option("--out", a->out, "the folder to write into")->required();
   verb->add_option("--laser", a->laser, "a laser's name (sick-lms200, hokuyo-urg, ...) or a file; default: recognised");
@@ -152,6 +189,7 @@ void add_map_verb(CLI::App& program, int& exit_code) {
   verb->footer(
       "Examples:\n  helicoid map robot1.log.gz --out site\n"
       "  helicoid map a.log b.log --out team --threads 2\n"
+      "  helicoid map mrclam6 --out five-robots\n"
       "  helicoid map --robot r2=monday.log,tuesday.log --out site --no-charts --json");
   verb->callback([a, &exit_code] {
     if (a->logs.empty() && a->named.empty()) throw CLI::RequiredError("LOG or --robot");

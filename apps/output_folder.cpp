@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array kFolders = {"islands", "sheets", "trajectories", "plots", "truth"};
-constexpr std::array kCharts = {"map.png", "map.pgm", "map.yaml", "sketch.svg", "topology.geojson"};
+constexpr std::array kFiles = {"map.gpkg", "map.png",    "map.pgm",          "map.yaml",
+                               "map.svg",  "sketch.svg", "topology.geojson", "ledger.json"};
 constexpr std::array kKinds = {".tum", ".png", ".pgm", ".yaml", ".svg", ".geojson"};
 
 /// Removes the files of our kinds below a folder, and the folders that are empty then.
@@ -60,7 +61,7 @@ void OutputFolder::clear_old_results() const {
   if (!ours_) return;
   std::error_code error;
   for (const char* name : kFolders) remove_ours_below(path_ / name);
-  for (const char* name : kCharts) fs::remove(path_ / name, error);
+  for (const char* name : kFiles) fs::remove(path_ / name, error);
 }
 
 }  // namespace helicoid

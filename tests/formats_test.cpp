@@ -1,4 +1,5 @@
 // docs/formats.md says what the program does, no more and no less.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -7,7 +8,10 @@
 #include <regex>
 #include <set>
 
+#include "helicoid/io/gzip_file.hpp"
 #include "helicoid/io/text_file.hpp"
+#include "helicoid/simulation/mark_simulator.hpp"
+#include "tests/mrclam_folder.hpp"
 #include "tests/program.hpp"
 #include "tests/source_tree.hpp"
 
@@ -39,7 +43,7 @@ Words first_column(const std::string& section, const std::string& pattern) {
 }
 
 Words documented_keys(const std::string& title) {
-  const Words keys = first_column(section_of(formats(), title), "`([^`]+)`");
+  Words keys = first_column(section_of(formats(), title), "`([^`]+)`");
   EXPECT_FALSE(keys.empty()) << title;
   return keys;
 }
@@ -47,7 +51,8 @@ Words documented_keys(const std::string& title) {
 /// "robots[].name" for every value of a JSON document.
 void add_keys(const Json& json, const std::string& path, Words& keys) {
   if (json.is_object()) {
-    for (const auto& [key, value] : json.items()) add_keys(value, path.empty() ? key : path + "." + key, keys);
+    for (const auto& [key, value] : json.items())
+      add_keys(value, path.empty() ? key : fmt::format("{}.{}", path, key), keys);
   } else if (json.is_array()) {
     for (const Json& value : json) add_keys(value, path + "[]", keys);
   } else {
@@ -108,6 +113,23 @@ TEST(Formats, DescribesEveryKeyOfTheSummary) {
   expect_same(keys_of(Json::parse(bytes_of(box / "site/summary.json"))), documented_keys("summary.json"));
 }
 
+TEST(Formats, DescribesEveryKeyOfTheSummaryOfRobotsWithoutLasers) {
+  const Sandbox box;
+  MarkSimulation drive;
+  drive.robots = 2;
+  drive.seconds = 30;
+  fs::create_directories(box / "team");
+  // A copy that was cut off, and a line that is none: everything that can be in it.
+  for (const auto& [name, text] : mrclam::files_of(simulate_marks(drive).log)) {
+    box.write("team/" + name, text + (name == "Robot1_Odometry.dat" ? "1 2\n" : ""));
+  }
+  ASSERT_TRUE(write_gzip_file(box / "team/Robot1_Groundtruth.dat.gz", std::string(5000, ' ')));
+  const std::string zipped = bytes_of(box / "team/Robot1_Groundtruth.dat.gz");
+  box.write("team/Robot1_Groundtruth.dat.gz", zipped.substr(0, zipped.size() - 8));
+  const Json summary = json_of({"map", box / "team", "--out", box / "site"});
+  expect_same(keys_of(summary), documented_keys("summary.json of robots without lasers"));
+}
+
 TEST(Formats, DescribesEveryKeyOfASimulation) {
   const Sandbox box;
   const Json simulation = json_of({"simulate", "room", "--out", box / "sim"});
@@ -157,7 +179,7 @@ TEST(Formats, DescribesEveryKeyOfPlotsAndExperiments) {
   expect_same(keys_of(json_of({"plot", box / "site"})), documented_keys("plot --json"));
   const Ended ended = run({"experiment", "crispness", "--quick", "--data", "nowhere", "--json", "-"});
   Words keys;
-  for (std::string key : keys_of(Json::parse(ended.out))) {
+  for (const std::string& key : keys_of(Json::parse(ended.out))) {
     keys.insert(std::regex_replace(key, std::regex("metrics\\.[a-z_]+"), "metrics.*"));
   }
   keys.insert("metrics.*.bar.at_least");  // this experiment has none of that kind

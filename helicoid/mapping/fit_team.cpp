@@ -47,14 +47,15 @@ TeamFit fit_team(const TeamLog& log, const TeamFitOptions& options, const std::f
   TeamModel model;
   model.odometry.resize(log.robots.size());
   model.detection.resize(log.robots.size());
-  TeamFit done{TeamNodes(log, options.gap, options.landmarks), {}, model, {}, 0, false, 0, 0, {}};
+  TeamFit done{TeamNodes(log, options.gap, options.landmarks), {}, model, {}, {}, 0, false, 0, 0, {}};
   bool goes_on = true;
   const auto tell = [&](double share) {
     if (progress) goes_on = progress(share) && goes_on;
   };
-  const TeamStart start = start_team(done.nodes, make_team_graph(log, done.nodes, model), options.start,
-                                     [&](double share) { tell(kStartShare * share); });
-  std::vector<Pose2> poses = start.poses;
+  done.start = start_team(done.nodes, make_team_graph(log, done.nodes, model), options.start, [&](double share) {
+                 tell(kStartShare * share);
+               }).poses;
+  std::vector<Pose2> poses = done.start;
   while (done.rounds == 0 || (done.rounds < options.most_rounds && !done.is_still && goes_on)) {
     if (done.rounds > 0) {
       done.model = fit_variances(log, done.nodes, done.team, done.model);

@@ -24,6 +24,7 @@ struct TeamFit {
   TeamGraph team;   ///< as fitted last, without the wrong detections; its poses are the result
   TeamModel model;  ///< that it was fitted with
   FitResult result;
+  std::vector<Pose2> start;  ///< where the fits began: the same graph can be fitted from there by others
   int rounds = 0;
   bool is_still = false;                 ///< false: the rounds did not suffice
   std::size_t detections = 0;            ///< that could be used
