@@ -4,8 +4,8 @@ namespace helicoid {
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> all{calibration_experiment(), crispness_experiment(), laps_experiment(),
-                                           outliers_experiment(),    playback_experiment(),  relations_experiment(),
-                                           spiral_experiment(),      teams_experiment()};
+                                           mrclam_experiment(),      outliers_experiment(),  playback_experiment(),
+                                           relations_experiment(),   spiral_experiment(),    teams_experiment()};
   return all;
 }
 
