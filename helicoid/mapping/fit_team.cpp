@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "helicoid/mapping/landmark_place.hpp"
 #include "helicoid/mapping/team_calibration.hpp"
 
 namespace helicoid {
@@ -22,7 +23,8 @@ constexpr double kStartShare = 0.5;
 
 /// Fits with what is known of the robots now; wrong detections are those that are far off at the poses before.
 void fit_round(const TeamLog& log, double gate, std::span<const Pose2> poses, TeamFit& fit_so_far) {
-  const TeamGraph whole = make_team_graph(log, fit_so_far.nodes, fit_so_far.model, poses);
+  TeamGraph whole = make_team_graph(log, fit_so_far.nodes, fit_so_far.model, poses);
+  whole.graph.poses = reseat_landmarks(whole, find_wrong(log, whole, fit_so_far.model, gate));
   const std::vector<bool> wrong = find_wrong(log, whole, fit_so_far.model, gate);
   fit_so_far.detections = whole.detections.size();
   fit_so_far.wrong = static_cast<std::size_t>(std::count(wrong.begin(), wrong.end(), true));

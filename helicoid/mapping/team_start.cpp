@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "helicoid/fit/fit_graph.hpp"
+#include "helicoid/mapping/landmark_place.hpp"
 #include "helicoid/mapping/point_alignment.hpp"
 
 namespace helicoid {
@@ -14,22 +15,50 @@ namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 
-/// The one of these that is nearest to all others: wrong ones do not move it far.
-Vector2d medoid(std::span<const Vector2d> places) {
-  Vector2d best = places.front();
-  double least = HUGE_VAL;
-  for (const Vector2d& p : places) {
-    double sum = 0;
-    for (const Vector2d& q : places) sum += (p - q).norm();
-    if (sum < least) least = sum, best = p;
+/// Some of the nodes and what ties them, to be fitted alone.
+class Part {
+ public:
+  explicit Part(const TeamNodes& nodes) : nodes_(nodes), place_(nodes.count(), kNone) {}
+
+  [[nodiscard]] bool has(std::uint32_t node) const { return place_[node] != kNone; }
+  void add(std::uint32_t node, const Pose2& pose) {
+    place_[node] = static_cast<std::uint32_t>(node_of_.size());
+    node_of_.push_back(node);
+    graph_.poses.push_back(pose);
+    graph_.is_landmark.push_back(nodes_.is_landmark(node));
   }
-  return best;
-}
+  void add(const GraphRelation& r) {
+    graph_.relations.push_back({place_[r.a], place_[r.b], r.measurement, r.may_be_wrong});
+  }
+  void hold(std::uint32_t node) { held_.push_back(place_[node]); }
+
+  /// All nodes' poses, with those of this part as fitted. Where none is held the gauge is.
+  [[nodiscard]] std::vector<Pose2> fitted(std::vector<Pose2> poses) const {
+    FitOptions options;
+    options.max_iterations = 10;
+    options.relative_tolerance = 1e-3;
+    options.loss = {LossKind::cauchy, 2, 0};
+    const FitResult result = held_.empty() ? fit(graph_, options) : fit(graph_, held_, options);
+    for (std::size_t k = 0; k < node_of_.size(); ++k) poses[node_of_[k]] = result.poses[k];
+    return poses;
+  }
+
+ private:
+  const TeamNodes& nodes_;
+  RelationGraph graph_;
+  std::vector<std::uint32_t> node_of_;
+  std::vector<std::uint32_t> place_;
+  std::vector<std::uint32_t> held_;
+};
 
 class GrowingTeam {
  public:
   GrowingTeam(const TeamNodes& nodes, const TeamGraph& team, const TeamStartOptions& options)
-      : nodes_(nodes), team_(team), options_(options), island_of_(nodes.count(), kNone) {
+      : nodes_(nodes),
+        team_(team),
+        options_(options),
+        island_of_(nodes.count(), kNone),
+        is_fitted_(nodes.count(), false) {
     start_.poses.resize(nodes.count());
     std::uint32_t steps = 0;
     for (std::size_t i = 0; i < nodes.robots(); ++i) {
@@ -49,8 +78,14 @@ class GrowingTeam {
     for (double until = begin_; until < end_;) {
       // A stretch without anybody is passed over.
       until = std::max(until + options_.step, std::min(next_stamp(), end_));
-      take_in(until);
-      fit_taken();
+      const bool joined = take_in(until);
+      const bool due = until - begin_ >= options_.growth * fitted_whole_ || until >= end_;
+      if (joined || due) {
+        fit_since(-HUGE_VAL);
+        fitted_whole_ = until - begin_;
+      } else {
+        fit_since(until - options_.recent);
+      }
       if (progress) progress((until - begin_) / (end_ - begin_));
     }
     for (std::uint32_t node = nodes_.first_landmark(); node < nodes_.count(); ++node) {
@@ -77,13 +112,18 @@ class GrowingTeam {
     return next;
   }
 
-  void take_in(double until) {
+  /// Whether islands were joined.
+  bool take_in(double until) {
     for (std::size_t i = 0; i < taken_.size(); ++i) extend(i, until);
     while (seen_ < by_time_.size() && stamp_of(by_time_[seen_]) <= until) pending_.push_back(by_time_[seen_++]);
     // A landmark that is placed, or an island that is joined, may let others be.
-    while (place_landmark() || join_two(until)) {
+    bool joined = false;
+    for (bool changed = true; changed;) {
+      changed = place_landmark();
+      if (!changed && join_two(until)) changed = joined = true;
     }
     settle_pending();
+    return joined;
   }
 
   /// By dead reckoning from the robot's last pose.
@@ -161,7 +201,7 @@ class GrowingTeam {
     });
   }
 
-  void fit_taken();
+  void fit_since(double stamp);
   void number_islands();
 
   const TeamNodes& nodes_;
@@ -175,37 +215,41 @@ class GrowingTeam {
   std::size_t seen_ = 0;
   std::vector<std::uint32_t> pending_;  ///< detections of what is on no island yet, or on another one
   std::vector<std::uint32_t> settled_;  ///< detections within an island
+  std::vector<bool> is_fitted_;         ///< landmarks, by node: together with all poses that saw them
+  double fitted_whole_ = 0;             ///< seconds of the log that were fitted together last
   double begin_ = HUGE_VAL;
   double end_ = -HUGE_VAL;
   TeamStart start_;
 };
 
-/// All poses so far and the landmarks, with a loss that grows slowly: a wrong detection does not pull for ever.
-void GrowingTeam::fit_taken() {
-  RelationGraph graph;
-  std::vector<std::uint32_t> node_of;
-  std::vector<std::uint32_t> place(nodes_.count(), kNone);
-  for (std::uint32_t node = 0; node < nodes_.count(); ++node) {
-    if (island_of_[node] == kNone) continue;
-    place[node] = static_cast<std::uint32_t>(node_of.size());
-    node_of.push_back(node);
-    graph.poses.push_back(start_.poses[node]);
-    graph.is_landmark.push_back(nodes_.is_landmark(node));
+/// The poses from this stamp on and the landmarks seen there, with a loss that grows slowly: a wrong detection does not
+/// pull for ever. What older poses say of landmarks is not asked again: landmarks that were fitted with them are held,
+/// and each robot's first pose.
+void GrowingTeam::fit_since(double stamp) {
+  const bool whole = std::isinf(stamp);
+  Part part(nodes_);
+  for (std::size_t i = 0; i < taken_.size(); ++i) {
+    const std::span<const double> stamps = nodes_.stamps_of(i).first(taken_[i]);
+    const auto from = std::lower_bound(stamps.begin(), stamps.end(), stamp) - stamps.begin();
+    for (auto k = static_cast<std::uint32_t>(from); k < stamps.size(); ++k) {
+      part.add(nodes_.first_of(i) + k, start_.poses[nodes_.first_of(i) + k]);
+      if (k > from) part.add(relation(first_step_[i] + k - 1));
+      if (k == from && !whole) part.hold(nodes_.first_of(i) + k);
+    }
   }
-  const auto add = [&](std::uint32_t i) {
+  for (const std::uint32_t i : settled_) {
     const GraphRelation& r = relation(i);
-    graph.relations.push_back({place[r.a], place[r.b], r.measurement, r.may_be_wrong});
-  };
-  for (std::uint32_t i = 0; i < team_.odometry; ++i) {
-    if (place[relation(i).b] != kNone) add(i);
+    if (!part.has(r.a)) continue;
+    if (nodes_.is_landmark(r.b) && !part.has(r.b)) {
+      part.add(r.b, start_.poses[r.b]);
+      if (!whole && is_fitted_[r.b]) part.hold(r.b);
+    }
+    if (part.has(r.b)) part.add(r);
   }
-  for (const std::uint32_t i : settled_) add(i);
-  FitOptions options;
-  options.max_iterations = 10;
-  options.relative_tolerance = 1e-3;
-  options.loss = {LossKind::cauchy, 2, 0};
-  const FitResult result = fit(graph, options);
-  for (std::size_t k = 0; k < node_of.size(); ++k) start_.poses[node_of[k]] = result.poses[k];
+  start_.poses = part.fitted(std::move(start_.poses));
+  for (std::uint32_t node = nodes_.first_landmark(); whole && node < nodes_.count(); ++node) {
+    is_fitted_[node] = part.has(node);
+  }
 }
 
 void GrowingTeam::number_islands() {
