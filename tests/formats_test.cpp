@@ -86,6 +86,21 @@ Words verbs() {
   return matches(help.substr(help.find("Subcommands:")), R"(^  ([a-z]+) )");
 }
 
+/// A folder of robots without lasers with everything that can be in it: a line that is none, a copy that was cut off.
+std::string write_team(const Sandbox& box) {
+  MarkSimulation drive;
+  drive.robots = 2;
+  drive.seconds = 30;
+  fs::create_directories(box / "team");
+  for (const auto& [name, text] : mrclam::files_of(simulate_marks(drive).log)) {
+    box.write("team/" + name, text + (name == "Robot1_Odometry.dat" ? "1 2\n" : ""));
+  }
+  EXPECT_TRUE(write_gzip_file(box / "team/Robot1_Groundtruth.dat.gz", std::string(5000, ' ')));
+  const std::string zipped = bytes_of(box / "team/Robot1_Groundtruth.dat.gz");
+  box.write("team/Robot1_Groundtruth.dat.gz", zipped.substr(0, zipped.size() - 8));
+  return box / "team";
+}
+
 }  // namespace
 
 TEST(Formats, DescribesEveryVerbAndNoOther) {
@@ -115,18 +130,7 @@ TEST(Formats, DescribesEveryKeyOfTheSummary) {
 
 TEST(Formats, DescribesEveryKeyOfTheSummaryOfRobotsWithoutLasers) {
   const Sandbox box;
-  MarkSimulation drive;
-  drive.robots = 2;
-  drive.seconds = 30;
-  fs::create_directories(box / "team");
-  // A copy that was cut off, and a line that is none: everything that can be in it.
-  for (const auto& [name, text] : mrclam::files_of(simulate_marks(drive).log)) {
-    box.write("team/" + name, text + (name == "Robot1_Odometry.dat" ? "1 2\n" : ""));
-  }
-  ASSERT_TRUE(write_gzip_file(box / "team/Robot1_Groundtruth.dat.gz", std::string(5000, ' ')));
-  const std::string zipped = bytes_of(box / "team/Robot1_Groundtruth.dat.gz");
-  box.write("team/Robot1_Groundtruth.dat.gz", zipped.substr(0, zipped.size() - 8));
-  const Json summary = json_of({"map", box / "team", "--out", box / "site"});
+  const Json summary = json_of({"map", write_team(box), "--out", box / "site"});
   expect_same(keys_of(summary), documented_keys("summary.json of robots without lasers"));
 }
 
@@ -159,7 +163,7 @@ TEST(Formats, DescribesEveryKeyOfInfo) {
   const std::string odd = box.write("odd.log", read_text_file(sim + "/robot1.clf.gz")->text + "FLASER 3 1\n");
   Words keys;
   for (const std::string& file : {box / "site/map.gpkg", odd, box.write("cut.log", log.substr(0, log.size() / 2)),
-                                  sim + "/truth/robot1.tum", sim + "/truth.relations"}) {
+                                  sim + "/truth/robot1.tum", sim + "/truth.relations", write_team(box)}) {
     const Json info = json_of({"info", file});
     EXPECT_TRUE(info.is_object()) << file;
     keys.merge(keys_of(info));
