@@ -37,15 +37,16 @@ std::optional<std::uint32_t> whole_number(double value) {
   return static_cast<std::uint32_t>(value);
 }
 
-void merge(const std::vector<Skipped>& from, std::vector<Skipped>& into) {
-  for (const Skipped& s : from) {
-    const auto same = std::find_if(into.begin(), into.end(), [&](const Skipped& t) { return t.reason == s.reason; });
-    if (same == into.end()) {
-      into.push_back(s);
+std::vector<Skipped> merged(std::vector<Skipped> all, const std::vector<Skipped>& more) {
+  for (const Skipped& s : more) {
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Skipped& t) { return t.reason == s.reason; });
+    if (same == all.end()) {
+      all.push_back(s);
     } else {
       same->count += s.count;
     }
   }
+  return all;
 }
 
 /// Reads the files of a folder one after another, and keeps what they have to say.
@@ -62,7 +63,7 @@ class FolderReader {
       if (auto done = read_robot(robot); !done) return tl::unexpected(done.error());
     }
     if (auto done = read_landmark_truth(); !done) return tl::unexpected(done.error());
-    merge(skipped_.all(), result_.skipped);
+    result_.skipped = merged(std::move(result_.skipped), skipped_.all());
     return std::move(result_);
   }
 
@@ -83,7 +84,7 @@ class FolderReader {
     if (!text) return tl::unexpected(text.error());
     if (!text->warning.empty()) result_.warnings.push_back(text->warning);
     MrclamTable table = parse_mrclam(text->text, columns, *path);
-    merge(table.skipped, result_.skipped);
+    result_.skipped = merged(std::move(result_.skipped), table.skipped);
     return table;
   }
 

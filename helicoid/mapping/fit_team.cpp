@@ -22,15 +22,16 @@ double moved(std::span<const Pose2> before, std::span<const Pose2> after) {
 constexpr double kStartShare = 0.5;
 
 /// Fits with what is known of the robots now; wrong detections are those that are far off at the poses before.
-void fit_round(const TeamLog& log, double gate, std::span<const Pose2> poses, TeamFit& fit_so_far) {
-  TeamGraph whole = make_team_graph(log, fit_so_far.nodes, fit_so_far.model, poses);
-  whole.graph.poses = reseat_landmarks(whole, find_wrong(log, whole, fit_so_far.model, gate));
-  const std::vector<bool> wrong = find_wrong(log, whole, fit_so_far.model, gate);
-  fit_so_far.detections = whole.detections.size();
-  fit_so_far.wrong = static_cast<std::size_t>(std::count(wrong.begin(), wrong.end(), true));
-  fit_so_far.team = without(whole, wrong);
-  fit_so_far.result = fit(fit_so_far.team.graph);
-  fit_so_far.team.graph.poses = fit_so_far.result.poses;
+TeamFit fit_round(const TeamLog& log, double gate, std::span<const Pose2> poses, TeamFit known) {
+  TeamGraph whole = make_team_graph(log, known.nodes, known.model, poses);
+  whole.graph.poses = reseat_landmarks(whole, find_wrong(log, whole, known.model, gate));
+  const std::vector<bool> wrong = find_wrong(log, whole, known.model, gate);
+  known.detections = whole.detections.size();
+  known.wrong = static_cast<std::size_t>(std::count(wrong.begin(), wrong.end(), true));
+  known.team = without(whole, wrong);
+  known.result = fit(known.team.graph);
+  known.team.graph.poses = known.result.poses;
+  return known;
 }
 
 std::vector<std::uint32_t> islands_of(const RelationGraph& graph) {
@@ -63,7 +64,7 @@ TeamFit fit_team(const TeamLog& log, const TeamFitOptions& options, const std::f
       done.model = fit_variances(log, done.nodes, done.team, done.model);
       done.model.odometry = fit_gains(log, done.nodes, poses, done.model.odometry);
     }
-    fit_round(log, options.gate, poses, done);
+    done = fit_round(log, options.gate, poses, std::move(done));
     // The first round only lets go what the start did not.
     done.is_still = done.rounds > 0 && moved(poses, done.result.poses) < options.still;
     poses = done.result.poses;
