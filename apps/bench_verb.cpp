@@ -1,10 +1,10 @@
 // helicoid bench: quality beside time.
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/bench.hpp"
+#include "apps/ceres_judge.hpp"
 #include "apps/progress_bar.hpp"
 #include "apps/repository.hpp"
 #include "apps/verb.hpp"
@@ -50,8 +50,7 @@ int drive_lap(const std::string& world_and_lap) {
 int run_verb(BenchArguments a) {
   if (!a.measured_lap.empty()) return drive_lap(a.measured_lap);
   if (a.options.data.empty()) a.options.data = find_recorded_data();
-  std::error_code error;
-  a.options.program = std::filesystem::read_symlink("/proc/self/exe", error).string();
+  a.options.program = this_program();
   if (!a.json) {
     fmt::print("{:<12}  {:<13} {:>9} {:>10} | {:<13} {:>9} {:>10}\n", "", "ours", "quality", "cost", "baseline",
                "quality", "cost");

@@ -1,10 +1,13 @@
 // helicoid info: what is this file?
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/map_summary.hpp"
 #include "apps/verb.hpp"
+#include "helicoid/io/mrclam_reader.hpp"
 #include "helicoid/io/relations_file.hpp"
 #include "helicoid/io/robot_logs.hpp"
 #include "helicoid/io/trajectory.hpp"
@@ -57,9 +60,6 @@ Json describe_log(MergedLogs& logs, const std::string& path) {
   const CarmenReader& reader = *logs.robots().front().reader;
   Json lasers = Json::array();
   for (const LaserModel& laser : reader.lasers()) lasers.push_back(describe(laser));
-  Json skipped = Json::array();
-  for (const Skipped& s : reader.skipped())
-    skipped.push_back({{"reason", s.reason}, {"count", s.count}, {"first", s.first}});
   json.update({{"lasers", lasers},
                {"scans", scans},
                {"odometry", odometry},
@@ -68,13 +68,40 @@ Json describe_log(MergedLogs& logs, const std::string& path) {
                {"duration_s", last - first},
                {"odometry_path_m", length},
                {"stamps_going_back", backwards},
-               {"skipped", skipped},
+               {"skipped", skipped_json(reader.skipped())},
                {"warnings", reader.warnings()}});
   return json;
 }
 
+Json describe_team(const MrclamFolder& folder, const std::string& path) {
+  Json robots = Json::array();
+  double first = HUGE_VAL;
+  double last = -HUGE_VAL;
+  for (std::size_t i = 0; i < folder.log.robots.size(); ++i) {
+    const TeamRobot& robot = folder.log.robots[i];
+    first = std::min(first, robot.velocities.front().stamp);
+    last = std::max(last, robot.velocities.back().stamp);
+    robots.push_back({{"name", robot.name},
+                      {"velocities", robot.velocities.size()},
+                      {"detections", robot.detections.size()},
+                      {"true_poses", folder.truth[i].size()}});
+  }
+  return {{"file", path},
+          {"kind", "MRCLAM folder"},
+          {"robots", robots},
+          {"landmarks", folder.log.landmarks.size()},
+          {"duration_s", last - first},
+          {"skipped", skipped_json(folder.skipped)},
+          {"warnings", folder.warnings}};
+}
+
 /// The first reading that succeeds; the errors of the others are of no interest, except if all fail.
 Result<Json> look_at(const std::string& path) {
+  if (is_mrclam_folder(path)) {
+    const Result<MrclamFolder> folder = read_mrclam(path);
+    if (!folder) return tl::unexpected(folder.error());
+    return describe_team(*folder, path);
+  }
   const Result<TextFile> text = read_text_file(path);
   if (!text) return tl::unexpected(text.error());
   if (text->text.starts_with("SQLite format 3")) {
@@ -111,7 +138,8 @@ void add_info_verb(CLI::App& program, int& exit_code) {
   };
   auto a = std::make_shared<InfoArguments>();
   CLI::App* verb = program.add_subcommand("info", "Say what a file is and what is in it");
-  verb->add_option("FILE", a->file, "a log, a map (map.gpkg), a trajectory or a relations file")->required();
+  verb->add_option("FILE", a->file, "a log, a map (map.gpkg), a trajectory, a relations file or an MRCLAM folder")
+      ->required();
   verb->add_flag("--json", a->json, "print one JSON object");
   verb->footer(
       "Examples:\n  helicoid info robot1.clf.gz\n  helicoid info site/map.gpkg\n"

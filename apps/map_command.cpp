@@ -5,10 +5,12 @@
 
 #include "apps/decisions_file.hpp"
 #include "apps/map_summary.hpp"
+#include "apps/map_team.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/progress_bar.hpp"
 #include "apps/verb.hpp"
 #include "helicoid/base/whole_file.hpp"
+#include "helicoid/io/mrclam_reader.hpp"
 
 namespace helicoid {
 
@@ -116,9 +118,42 @@ Result<std::vector<Decision>> decisions_of(const MapArguments& a) {
   return a.decisions_file.empty() ? a.decisions : read_decisions(a.decisions_file);
 }
 
+/// The options given that have no meaning without scans.
+std::vector<std::string> scan_options(const MapArguments& a) {
+  std::vector<std::string> given;
+  const auto add = [&](const char* name, bool is_given) {
+    if (is_given) given.emplace_back(name);
+  };
+  add("--robot", !a.named.empty());
+  add("--laser", !a.laser.empty());
+  add("--join", a.join != "sightings");
+  add("--decisions", !a.decisions_file.empty());
+  add("--every", a.every != 1);
+  add("--from", a.from != 0);
+  add("--to", a.to < 1e300);
+  add("--no-closures", a.no_closures);
+  add("--online", a.online);
+  return given;
+}
+
+int run_team_folder(const std::string& folder, const MapArguments& a) {
+  if (a.logs.size() > 1) {
+    return report_failure(fmt::format("{}: is an MRCLAM folder, a team of its own; name it alone", folder));
+  }
+  if (const std::vector<std::string> given = scan_options(a); !given.empty()) {
+    return report_failure(
+        fmt::format("{}: is an MRCLAM folder and holds no laser scans; leave out {}, which say{} "
+                    "what to do with scans",
+                    folder, fmt::join(given, ", "), given.size() == 1 ? "s" : ""));
+  }
+  return map_team({folder, a.out, a.no_charts, a.force, a.json});
+}
+
 }  // namespace
 
 int run_map_command(const MapArguments& a) {
+  const auto team = std::find_if(a.logs.begin(), a.logs.end(), is_mrclam_folder);
+  if (team != a.logs.end()) return run_team_folder(*team, a);
   Result<std::vector<RobotLogs>> robots = name_robots(a.logs, a.named);
   if (!robots) return report_failure(robots.error().message);
   Result<std::vector<Decision>> decisions = decisions_of(a);

@@ -1,31 +1,14 @@
 #include "apps/map_run.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <ctime>
 
+#include "apps/interrupt_guard.hpp"
 #include "helicoid/io/laser_file.hpp"
 
 namespace helicoid {
 
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) {
-  interrupted = 1;
-}
-
-/// Ctrl-C asks for an end instead of making one, as long as this lives.
-class InterruptGuard {
- public:
-  InterruptGuard() : previous_(std::signal(SIGINT, interrupt)) { interrupted = 0; }
-  ~InterruptGuard() { std::signal(SIGINT, previous_); }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  void (*previous_)(int);
-};
 
 /// Which of a robot's scans a job asks for.
 class Selection {
@@ -126,7 +109,7 @@ double map_events(const MapJob& job, MergedLogs& logs, MapRun& run) {
   double before = thread_cpu_seconds();
   while (const Event* event = timed.next()) {
     // One scan at least, so that there is a map to write.
-    if (interrupted != 0 && !run.scan_seconds.empty()) break;
+    if (InterruptGuard::interrupted() && !run.scan_seconds.empty()) break;
     if (!selection.wants(*event)) continue;
     if (!job.sightings && std::holds_alternative<Sighting>(event->body)) continue;
     run.mapper.process(*event);
@@ -137,7 +120,7 @@ double map_events(const MapJob& job, MergedLogs& logs, MapRun& run) {
     if (job.progress && run.scan_seconds.size() % 256 == 0) job.progress(share_done(logs));
   }
   run.scans = run.scan_seconds.size();
-  run.interrupted = interrupted != 0;
+  run.interrupted = InterruptGuard::interrupted();
   return timed.seconds();
 }
 

@@ -74,6 +74,25 @@ void add_contents(Json& json, const Map& map, const MapReport& report) {
 
 }  // namespace
 
+Json process_figures(double wall_seconds) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return {{"cpu_s", milli(seconds(usage.ru_utime) + seconds(usage.ru_stime))},
+          {"wall_s", milli(wall_seconds)},
+          {"peak_rss_mb", std::round(10 * static_cast<double>(usage.ru_maxrss) / 1024) / 10}};
+}
+
+Json phase_figures(const PhaseTimes& phase) {
+  return {{"read", milli(phase.read)},   {"match", milli(phase.match)},   {"fit", milli(phase.fit)},
+          {"close", milli(phase.close)}, {"charts", milli(phase.charts)}, {"write", milli(phase.write)}};
+}
+
+Json skipped_json(const std::vector<Skipped>& skipped) {
+  Json all = Json::array();
+  for (const Skipped& s : skipped) all.push_back({{"reason", s.reason}, {"count", s.count}, {"first", s.first}});
+  return all;
+}
+
 Json summarise(const MapRun& run, const MapReport& report, const Json& options) {
   const Map& map = run.mapper.map();
   Json json = {{"format", "helicoid-map-summary"}, {"version", HELICOID_VERSION}, {"options", options}};
@@ -94,22 +113,12 @@ Json summarise(const MapRun& run, const MapReport& report, const Json& options) 
     closures[name_of(h.state)] = closures[name_of(h.state)].get<int>() + 1;
   json["closures"] = closures;
   json["passes"] = run.passes;
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  json["cpu_s"] = milli(seconds(usage.ru_utime) + seconds(usage.ru_stime));
-  json["wall_s"] = milli(run.wall_seconds());
-  json["peak_rss_mb"] = std::round(10 * static_cast<double>(usage.ru_maxrss) / 1024) / 10;
+  json.update(process_figures(run.wall_seconds()));
   json["scan_us_p50"] = micro(percentile(run.scan_seconds, 0.50));
   json["scan_us_p99"] = micro(percentile(run.scan_seconds, 0.99));
   json["scan_us_by_tenth"] = by_tenth(run.scan_seconds);
-  json["phase_cpu_s"] = {{"read", milli(run.phase.read)},     {"match", milli(run.phase.match)},
-                         {"fit", milli(run.phase.fit)},       {"close", milli(run.phase.close)},
-                         {"charts", milli(run.phase.charts)}, {"write", milli(run.phase.write)}};
-  Json skipped = Json::array();
-  for (const Skipped& s : run.skipped) {
-    skipped.push_back({{"reason", s.reason}, {"count", s.count}, {"first", s.first}});
-  }
-  json["skipped"] = skipped;
+  json["phase_cpu_s"] = phase_figures(run.phase);
+  json["skipped"] = skipped_json(run.skipped);
   json["warnings"] = run.warnings;
   json["lasers"] = run.lasers;
   return json;

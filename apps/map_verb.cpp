@@ -10,7 +10,9 @@ namespace helicoid {
 void add_map_verb(CLI::App& program, int& exit_code) {
   auto a = std::make_shared<MapArguments>();
   CLI::App* verb = program.add_subcommand("map", "Map the logs of one or more robots");
-  verb->add_option("LOG", a->logs, "CARMEN logs, plain or .gz, - for stdin; each is a robot named by its base name");
+  verb->add_option(
+      "LOG", a->logs,
+      "CARMEN logs, plain or .gz, - for stdin; each is a robot named by its base name; or one MRCLAM folder");
   verb->add_option("--robot", a->named, "NAME=LOG[,LOG...]: a robot with a name and one or more logs")->take_all();
   verb->add_option("--out", a->out, "the folder to write into")->required();
   verb->add_option("--laser", a->laser, "a laser's name (sick-lms200, hokuyo-urg, ...) or a file; default: recognised");
@@ -34,6 +36,7 @@ void add_map_verb(CLI::App& program, int& exit_code) {
   verb->footer(
       "Examples:\n  helicoid map robot1.log.gz --out site\n"
       "  helicoid map a.log b.log --out team --threads 2\n"
+      "  helicoid map mrclam6 --out five-robots\n"
       "  helicoid map --robot r2=monday.log,tuesday.log --out site --no-charts --json");
   verb->callback([a, &exit_code] {
     if (a->logs.empty() && a->named.empty()) throw CLI::RequiredError("LOG or --robot");

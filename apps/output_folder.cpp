@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array kFolders = {"islands", "sheets", "trajectories", "plots", "truth"};
-constexpr std::array kFiles = {"map.png", "map.pgm", "map.yaml", "sketch.svg", "topology.geojson", "decisions.json"};
+constexpr std::array kFiles = {"map.gpkg",   "map.png",          "map.pgm",     "map.yaml",      "map.svg",
+                               "sketch.svg", "topology.geojson", "ledger.json", "decisions.json"};
 constexpr std::array kKinds = {".tum", ".png", ".pgm", ".yaml", ".svg", ".geojson"};
 
 /// Removes the files of our kinds below a folder, and the folders that are empty then.

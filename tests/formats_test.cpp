@@ -1,4 +1,5 @@
 // docs/formats.md says what the program does, no more and no less.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -7,7 +8,10 @@
 #include <regex>
 #include <set>
 
+#include "helicoid/io/gzip_file.hpp"
 #include "helicoid/io/text_file.hpp"
+#include "helicoid/simulation/mark_simulator.hpp"
+#include "tests/mrclam_folder.hpp"
 #include "tests/program.hpp"
 #include "tests/source_tree.hpp"
 
@@ -39,7 +43,7 @@ Words first_column(const std::string& section, const std::string& pattern) {
 }
 
 Words documented_keys(const std::string& title) {
-  const Words keys = first_column(section_of(formats(), title), "`([^`]+)`");
+  Words keys = first_column(section_of(formats(), title), "`([^`]+)`");
   EXPECT_FALSE(keys.empty()) << title;
   return keys;
 }
@@ -47,7 +51,8 @@ Words documented_keys(const std::string& title) {
 /// "robots[].name" for every value of a JSON document.
 void add_keys(const Json& json, const std::string& path, Words& keys) {
   if (json.is_object()) {
-    for (const auto& [key, value] : json.items()) add_keys(value, path.empty() ? key : path + "." + key, keys);
+    for (const auto& [key, value] : json.items())
+      add_keys(value, path.empty() ? key : fmt::format("{}.{}", path, key), keys);
   } else if (json.is_array()) {
     for (const Json& value : json) add_keys(value, path + "[]", keys);
   } else {
@@ -81,6 +86,21 @@ Words verbs() {
   return matches(help.substr(help.find("Subcommands:")), R"(^  ([a-z]+) )");
 }
 
+/// A folder of robots without lasers with everything that can be in it: a line that is none, a copy that was cut off.
+std::string write_team(const Sandbox& box) {
+  MarkSimulation drive;
+  drive.robots = 2;
+  drive.seconds = 30;
+  fs::create_directories(box / "team");
+  for (const auto& [name, text] : mrclam::files_of(simulate_marks(drive).log)) {
+    box.write("team/" + name, text + (name == "Robot1_Odometry.dat" ? "1 2\n" : ""));
+  }
+  EXPECT_TRUE(write_gzip_file(box / "team/Robot1_Groundtruth.dat.gz", std::string(5000, ' ')));
+  const std::string zipped = bytes_of(box / "team/Robot1_Groundtruth.dat.gz");
+  box.write("team/Robot1_Groundtruth.dat.gz", zipped.substr(0, zipped.size() - 8));
+  return box / "team";
+}
+
 }  // namespace
 
 TEST(Formats, DescribesEveryVerbAndNoOther) {
@@ -106,6 +126,12 @@ TEST(Formats, DescribesEveryKeyOfTheSummary) {
   const Json summary = json_of({"map", command, box.write("cut.log", cut), "--out", box / "site"});
   expect_same(keys_of(summary), documented_keys("summary.json"));
   expect_same(keys_of(Json::parse(bytes_of(box / "site/summary.json"))), documented_keys("summary.json"));
+}
+
+TEST(Formats, DescribesEveryKeyOfTheSummaryOfRobotsWithoutLasers) {
+  const Sandbox box;
+  const Json summary = json_of({"map", write_team(box), "--out", box / "site"});
+  expect_same(keys_of(summary), documented_keys("summary.json of robots without lasers"));
 }
 
 TEST(Formats, DescribesEveryKeyOfASimulation) {
@@ -145,7 +171,7 @@ TEST(Formats, DescribesEveryKeyOfInfo) {
   const std::string odd = box.write("odd.log", read_text_file(sim + "/robot1.clf.gz")->text + "FLASER 3 1\n");
   Words keys;
   for (const std::string& file : {box / "site/map.gpkg", odd, box.write("cut.log", log.substr(0, log.size() / 2)),
-                                  sim + "/truth/robot1.tum", sim + "/truth.relations"}) {
+                                  sim + "/truth/robot1.tum", sim + "/truth.relations", write_team(box)}) {
     const Json info = json_of({"info", file});
     EXPECT_TRUE(info.is_object()) << file;
     keys.merge(keys_of(info));
@@ -179,7 +205,7 @@ TEST(Formats, DescribesEveryKeyOfPlotsAndExperiments) {
   expect_same(keys_of(json_of({"plot", box / "site"})), documented_keys("plot --json"));
   const Ended ended = run({"experiment", "crispness", "--quick", "--data", "nowhere", "--json", "-"});
   Words keys;
-  for (std::string key : keys_of(Json::parse(ended.out))) {
+  for (const std::string& key : keys_of(Json::parse(ended.out))) {
     keys.insert(std::regex_replace(key, std::regex("metrics\\.[a-z_]+"), "metrics.*"));
   }
   keys.insert("metrics.*.bar.at_least");  // this experiment has none of that kind

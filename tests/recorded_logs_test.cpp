@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "apps/map_run.hpp"
+#include "apps/team_run.hpp"
 
 namespace helicoid {
 namespace {
@@ -37,6 +38,19 @@ TEST(RecordedLogs, StampsThatStepBackAreNoImpossibleSteps) {
   EXPECT_EQ(scans_of(*run), 13631U);
   EXPECT_EQ(run->mapper.counts().odometry_jumps, 0U);
   EXPECT_LT(run->mapper.counts().predicted, 140U);
+}
+
+TEST(RecordedLogs, FiveRobotsWithoutLasersAreFoundFromUnknownStarts) {
+  if (!is_mrclam_folder(kData + "mrclam6")) GTEST_SKIP() << "no recorded logs in " << kData;
+  const Result<MrclamFolder> folder = read_mrclam(kData + "mrclam6");
+  ASSERT_TRUE(folder) << folder.error().message;
+  ASSERT_EQ(folder->skipped.size(), 1U);
+  EXPECT_EQ(folder->skipped[0].count, 6U);  // barcodes that nobody wears
+  const TeamFit fit = fit_team(folder->log);
+  EXPECT_TRUE(fit.is_still);
+  const TeamError error = score_team(*folder, fit);
+  EXPECT_GT(error.matched, 40000U);
+  EXPECT_LT(error.rms_m, 0.15);
 }
 
 }  // namespace

@@ -2,12 +2,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "apps/bench.hpp"
+#include "apps/ceres_judge.hpp"
 #include "helicoid/base/random.hpp"
-#include "helicoid/base/whole_file.hpp"
 #include "helicoid/fit/fit_graph.hpp"
 #include "helicoid/fit/initial_guess.hpp"
 #include "helicoid/io/graph_reader.hpp"
@@ -49,31 +48,13 @@ GraphFile make_grid(std::uint32_t side) {
   return file;
 }
 
-std::string judge_beside(const std::string& program) {
-  return (std::filesystem::path(program).parent_path().parent_path() / "bench" / "ceres_judge").string();
-}
-
-struct Judged {
-  double cost = 0;
-  double seconds = 1e300;
-  int iterations = 0;
-};
-
-/// The least CPU time of the judge's runs on the same graph and start.
-Result<Judged> judge(const GraphFile& file, const BenchOptions& options, int repeats) {
-  const std::string path = (std::filesystem::temp_directory_path() / "helicoid_bench_fit.g2o").string();
-  if (auto done = write_whole_file(path, to_graph_text(file, file.graph.poses)); !done)
-    return tl::unexpected(done.error());
-  Judged best;
-  for (int i = 0; i < repeats; ++i) {
-    FILE* pipe = popen(("'" + judge_beside(options.program) + "' " + path).c_str(), "r");
-    if (pipe == nullptr) return fail("the judge could not be started");
-    Judged one;
-    const int read = std::fscanf(pipe, "%lf %lf %d", &one.cost, &one.seconds, &one.iterations);
-    if (pclose(pipe) != 0 || read != 3) return fail("the judge failed on {}", path);
-    if (one.seconds < best.seconds) best = one;
+/// The judge's run that took least CPU time, on the same graph and start.
+Result<Judged> judge_repeatedly(const GraphFile& file, const std::string& program, int repeats) {
+  Result<Judged> best = judge(file, program);
+  for (int i = 1; i < repeats && best; ++i) {
+    Result<Judged> one = judge(file, program);
+    if (!one || one->cpu_s < best->cpu_s) best = std::move(one);
   }
-  std::filesystem::remove(path);
   return best;
 }
 
@@ -85,17 +66,17 @@ Result<BenchRow> measure(const std::string& name, const GraphFile& file, const B
     fitted = fit(file.graph);
     if (fitted.times.total_s < best.total_s) best = fitted.times;
   }
-  const Result<Judged> judged = judge(file, options, repeats);
+  const Result<Judged> judged = judge_repeatedly(file, options.program, repeats);
   if (!judged) return tl::unexpected(judged.error());
   BenchRow row;
   row.name = name;
   row.quality_unit = "of cost";
   row.cost_unit = "CPU s";
   row.ours = {"helicoid", 2 * fitted.final_cost, best.total_s};
-  row.baseline = {"Ceres", judged->cost, judged->seconds};
+  row.baseline = {"Ceres", judged->cost, judged->cpu_s};
   row.note = fmt::format(
       "{:.1f} times faster; {} and {} iterations; order {:.4f}, linearise {:.4f}, factorise {:.4f}, solve {:.4f}",
-      judged->seconds / best.total_s, fitted.iterations, judged->iterations, best.order_s, best.linearise_s,
+      judged->cpu_s / best.total_s, fitted.iterations, judged->iterations, best.order_s, best.linearise_s,
       best.factorise_s, best.solve_s);
   return row;
 }
@@ -129,8 +110,7 @@ Result<BenchRow> measure_large(const std::string& name, std::uint32_t side) {
 
 std::vector<Benchmark> fit_benchmarks(const BenchOptions& options) {
   std::vector<Benchmark> all;
-  const bool has_judge = std::filesystem::exists(judge_beside(options.program));
-  const std::string no_judge = has_judge ? "" : "Ceres was not there when this was built (Debian: libceres-dev)";
+  const std::string no_judge = missing_judge(options.program);
   for (const char* name : {"manhattan", "city10000", "intel"}) {
     const bool there = std::filesystem::exists(options.data + "/posegraphs/" + name + ".g2o.gz");
     all.push_back({std::string("fit ") + name, there ? no_judge : "no recorded data",

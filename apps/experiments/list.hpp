@@ -9,6 +9,7 @@ namespace helicoid {
 [[nodiscard]] Experiment crispness_experiment();
 [[nodiscard]] Experiment laps_experiment();
 [[nodiscard]] Experiment lies_experiment();
+[[nodiscard]] Experiment mrclam_experiment();
 [[nodiscard]] Experiment outliers_experiment();
 [[nodiscard]] Experiment playback_experiment();
 [[nodiscard]] Experiment relations_experiment();

@@ -73,8 +73,10 @@ std::optional<Judged> judge(const Map& map, ExactPoses& exact, const SightingRec
   return Judged{fit_of(record.sighting, *T), *T};
 }
 
-bool is_open(const Hypothesis& h) {
-  return h.state == HypothesisState::open && !h.is_withheld();
+/// Open, or rejected by the scans of its time: with little mapped yet, people and doors weigh much.
+bool may_be_settled(const Hypothesis& h) {
+  if (h.state == HypothesisState::open) return !h.is_withheld();
+  return h.state == HypothesisState::rejected && h.decided_by == DecidedBy::evidence;
 }
 
 void settle(const Map& map, LoopCloser& closer, ExactPoses& exact, const SightingRecord& record) {
@@ -90,10 +92,13 @@ void settle(const Map& map, LoopCloser& closer, ExactPoses& exact, const Sightin
   }
   if (judged == 0) return;
   Hypothesis h = closer.ledger()[record.entry];
+  const bool was_rejected = h.state == HypothesisState::rejected;
   if (fitting.size() == 1 && judged == record.candidates.size()) {
     h = entry_of(record, *fitting.front());
     h.state = HypothesisState::accepted;
     h.reason = "fits the map as it has become by other evidence";
+  } else if (was_rejected) {
+    return;
   } else if (!fitting.empty()) {
     h.reason = "may be of more robots than one";
   } else if (judged == record.candidates.size()) {
@@ -110,7 +115,7 @@ void settle(const Map& map, LoopCloser& closer, ExactPoses& exact, const Sightin
 void judge_sightings(const Map& map, LoopCloser& closer, const SightingLog& log) {
   ExactPoses exact(map);
   for (const SightingRecord& record : log.placed()) {
-    if (is_open(closer.ledger()[record.entry])) settle(map, closer, exact, record);
+    if (may_be_settled(closer.ledger()[record.entry])) settle(map, closer, exact, record);
   }
 }
 
