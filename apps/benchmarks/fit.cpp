@@ -144,7 +144,7 @@ std::vector<Benchmark> fit_benchmarks(const BenchOptions& options) {
   }
   constexpr std::uint32_t kLargeSide = 1000;
   const std::string large = fmt::format("fit grid {}", kLargeSide * kLargeSide);
-  all.push_back({large, options.large ? "" : "needs a minute and 5 GB; --large asks for it",
+  all.push_back({large, options.large ? "" : "needs a minute and 4 GB; --large asks for it",
                  [large] { return measure_large(large, kLargeSide); }});
   return all;
 }

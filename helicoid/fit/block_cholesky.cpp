@@ -52,20 +52,21 @@ void BlockCholesky::prepare(const BlockMatrix& H) {
   block_at_.resize(H.row.size());
   for (std::int32_t node = 0; node < H.nodes(); ++node) {
     const Supernode& s = supernodes_->tree[supernodes_->of[node]];
-    const auto leading = static_cast<std::size_t>(s.shape().leading());
-    const std::size_t column = s.panel + kBlock * static_cast<std::size_t>(node - s.first) * leading;
+    const std::ptrdiff_t column =
+        static_cast<std::ptrdiff_t>(s.panel) + s.shape().panel_column(kBlock * (node - s.first));
     for (std::size_t e = H.first[node]; e < H.first[node + 1]; ++e) {
-      block_at_[e] = column + static_cast<std::size_t>(supernodes_->panel_row(s, H.row[e]));
+      block_at_[e] = static_cast<std::size_t>(column + supernodes_->panel_row(s, H.row[e]));
     }
   }
 }
 
 void BlockCholesky::assemble(const BlockMatrix& H, const Supernode& s, double damping) {
-  const auto leading = static_cast<std::size_t>(s.shape().leading());
-  std::fill_n(panels_.data() + s.panel, s.shape().panel_size(), 0.0);
+  const FrontShape shape = s.shape();
+  std::fill_n(panels_.data() + s.panel, shape.panel_size(), 0.0);
   for (std::int32_t node = s.first; node < s.first + s.count; ++node) {
-    const auto local = kBlock * static_cast<std::size_t>(node - s.first);
-    double* block = panels_.data() + s.panel + local * (leading + 1);
+    const std::int32_t local = kBlock * (node - s.first);
+    const auto leading = static_cast<std::size_t>(between_columns(shape.leading(), local));
+    double* block = panels_.data() + s.panel + shape.panel_column(local) + local;
     const double* from = H.diagonal.data() + 9 * static_cast<std::size_t>(node);
     for (std::size_t j = 0; j < 3; ++j) {
       for (std::size_t i = 0; i < 3; ++i) block[i + j * leading] = from[i + 3 * j];
@@ -86,19 +87,17 @@ void BlockCholesky::assemble(const BlockMatrix& H, const Supernode& s, double da
 void BlockCholesky::add_update(const Supernode& child, const double* update, const Supernode& parent,
                                double* parent_update) {
   const FrontShape shape = parent.shape();
+  const FrontShape child_shape = child.shape();
   const auto runs = supernodes_->runs_of(child);
-  const std::ptrdiff_t child_leading = padded(kBlock * child.below);
-  const std::ptrdiff_t update_leading = padded(shape.below);
   const std::int32_t first_below = shape.first_below();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const FrontRun& columns = runs[r];
     const bool in_panel = columns.to < first_below;
     for (std::int32_t c = 0; c < columns.length; ++c) {
-      const double* source = update + (columns.from + c) * child_leading;
-      // Rows count from the start of this column's storage: the whole panel, or what is below.
-      double* target =
-          in_panel ? panels_.data() + parent.panel + (columns.to + c) * static_cast<std::ptrdiff_t>(shape.leading())
-                   : parent_update + (columns.to + c - first_below) * update_leading - first_below;
+      const double* source = update + child_shape.update_column(columns.from + c);
+      // Rows count from the top of the column: of the panel, or of what is below.
+      double* target = in_panel ? panels_.data() + parent.panel + shape.panel_column(columns.to + c)
+                                : parent_update + shape.update_column(columns.to + c - first_below) - first_below;
       for (std::int32_t i = c; i < columns.length; ++i) target[columns.to + i] += source[columns.from + i];
       for (std::size_t q = r + 1; q < runs.size(); ++q) {
         double* to = target + runs[q].to;
