@@ -1,6 +1,7 @@
 #include "helicoid/fit/block_cholesky.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace helicoid {
 
@@ -23,6 +24,37 @@ BlockMatrix make_block_matrix(const Adjacency& graph, const Supernodes& supernod
   }
   H.below.assign(9 * H.row.size(), 0.0);
   return H;
+}
+
+std::vector<double> multiply(const BlockMatrix& H, std::span<const double> x) {
+  std::vector<double> product(x.size(), 0.0);
+  for (std::int32_t k = 0; k < H.nodes(); ++k) {
+    const double* block = H.diagonal.data() + 9 * static_cast<std::size_t>(k);
+    for (int j = 0; j < kBlock; ++j) {
+      for (int i = 0; i < kBlock; ++i) product[kBlock * k + i] += block[i + 3 * j] * x[kBlock * k + j];
+    }
+    for (std::size_t e = H.first[k]; e < H.first[k + 1]; ++e) {
+      block = H.below.data() + 9 * e;
+      for (int j = 0; j < kBlock; ++j) {
+        for (int i = 0; i < kBlock; ++i) {
+          product[kBlock * H.row[e] + i] += block[i + 3 * j] * x[kBlock * k + j];
+          product[kBlock * k + j] += block[i + 3 * j] * x[kBlock * H.row[e] + i];
+        }
+      }
+    }
+  }
+  return product;
+}
+
+double relative_residual(const BlockMatrix& H, std::span<const double> x, std::span<const double> right) {
+  const std::vector<double> left = multiply(H, x);
+  double off = 0;
+  double whole = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    off += (left[i] - right[i]) * (left[i] - right[i]);
+    whole += right[i] * right[i];
+  }
+  return std::sqrt(off / whole);
 }
 
 BlockCholesky::BlockCholesky(const Supernodes& supernodes, const FrontKernels& kernels)

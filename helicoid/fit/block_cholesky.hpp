@@ -23,6 +23,11 @@ struct BlockMatrix {
 /// All zeros, with room for the graph's edges.
 [[nodiscard]] BlockMatrix make_block_matrix(const Adjacency& graph, const Supernodes& supernodes);
 
+/// H x.
+[[nodiscard]] std::vector<double> multiply(const BlockMatrix& H, std::span<const double> x);
+/// |H x - right| / |right|: the proof of a solution.
+[[nodiscard]] double relative_residual(const BlockMatrix& H, std::span<const double> x, std::span<const double> right);
+
 class BlockCholesky {
  public:
   /// The supernodes outlive the factor.

@@ -102,6 +102,11 @@ TEST(BlockCholesky, SolvesAsADenseSolverDoesWhateverTheOrder) {
         Eigen::VectorXd x = right;
         cholesky.solve({x.data(), static_cast<std::size_t>(x.size())});
         EXPECT_LT((x - expected).lpNorm<Eigen::Infinity>(), 1e-11) << k->processor_class << " seed " << seed;
+        const auto size = static_cast<std::size_t>(x.size());
+        EXPECT_LT(relative_residual(s.H, {x.data(), size}, {right.data(), size}), 1e-12);
+        // The residual is the dense one, of other vectors, too.
+        EXPECT_NEAR(relative_residual(s.H, {right.data(), size}, {right.data(), size}),
+                    (s.dense * right - right).norm() / right.norm(), 1e-10);
       }
     }
   }
