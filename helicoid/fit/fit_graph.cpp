@@ -39,7 +39,10 @@ class LevenbergMarquardt {
     relinearise();
     result_.initial_cost = result_.final_cost;
     result_.status = FitStatus::iteration_limit;
-    while (result_.iterations < options_.max_iterations && result_.status == FitStatus::iteration_limit) iterate();
+    while (result_.iterations < options_.max_iterations && result_.status == FitStatus::iteration_limit) {
+      iterate();
+      if (options_.progress) options_.progress(result_.iterations, result_.final_cost);
+    }
   }
 
  private:
