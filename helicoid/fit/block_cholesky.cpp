@@ -58,11 +58,12 @@ double relative_residual(const BlockMatrix& H, std::span<const double> x, std::s
 }
 
 BlockCholesky::BlockCholesky(const Supernodes& supernodes, const FrontKernels& kernels)
-    : supernodes_(&supernodes), kernels_(&kernels), panels_(supernodes.panels) {
+    : supernodes_(&supernodes), kernels_(&kernels) {
   // Parents follow their children, so that at a supernode its children's updates lie on top of the other depth's stack.
   std::size_t work = 0;
   std::size_t top[2] = {0, 0};
   std::size_t most[2] = {0, 0};
+  std::size_t reach[2] = {0, 0};
   std::vector<std::size_t> released(supernodes.tree.size(), SIZE_MAX);
   update_at_.resize(supernodes.tree.size());
   for (std::size_t k = 0; k < supernodes.tree.size(); ++k) {
@@ -71,12 +72,23 @@ BlockCholesky::BlockCholesky(const Supernodes& supernodes, const FrontKernels& k
     const int parity = s.depth % 2;
     update_at_[k] = top[parity];
     top[parity] += s.shape().update_size();
-    most[parity] = std::max(most[parity], top[parity]);
+    for (int p = 0; p < 2; ++p) {
+      most[p] = std::max(most[p], top[p]);
+      reach[p] = std::max(reach[p], s.panel + s.shape().panel_size() + top[p]);
+    }
     if (released[k] != SIZE_MAX) top[1 - parity] = released[k];
     if (s.parent >= 0) released[s.parent] = std::min(released[s.parent], update_at_[k]);
   }
   workspace_ = WorkMemory(work);
-  for (int parity = 0; parity < 2; ++parity) stacks_[parity] = WorkMemory(most[parity] + kStrip);
+  within_ = reach[0] + most[1] < reach[1] + most[0] ? 0 : 1;
+  panels_ = WorkMemory(reach[within_] + kStrip);
+  stack_ = WorkMemory(most[1 - within_] + kStrip);
+}
+
+double* BlockCholesky::update_of(std::size_t k) const {
+  const Supernode& s = supernodes_->tree[k];
+  if (s.depth % 2 != within_) return stack_.data() + update_at_[k];
+  return panels_.data() + (panels_.size() - kStrip - update_at_[k] - s.shape().update_size());
 }
 
 void BlockCholesky::prepare(const BlockMatrix& H) {
@@ -153,11 +165,11 @@ bool BlockCholesky::factorise(const BlockMatrix& H, double damping) {
   for (std::size_t k = 0; k < tree.size(); ++k) {
     const Supernode& s = tree[k];
     assemble(H, s, damping);
-    double* update = stacks_[s.depth % 2].data() + update_at_[k];
+    double* update = update_of(k);
     std::fill_n(update, s.shape().update_size(), 0.0);
     for (; !pending.empty() && tree[pending.back()].parent == static_cast<std::int32_t>(k); pending.pop_back()) {
-      const Supernode& child = tree[pending.back()];
-      add_update(child, stacks_[child.depth % 2].data() + update_at_[pending.back()], s, update);
+      const auto child = static_cast<std::size_t>(pending.back());
+      add_update(tree[child], update_of(child), s, update);
     }
     if (!kernels_->eliminate(s.shape(), panels_.data() + s.panel, update, workspace_.data())) return false;
     if (s.parent >= 0) pending.push_back(static_cast<std::int32_t>(k));
