@@ -10,7 +10,7 @@ namespace helicoid {
 
 std::uint32_t IncrementalFit::add_pose(const Pose2& start, bool is_landmark) {
   const auto node = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({start, std::cos(start.yaw), std::sin(start.yaw), {}, is_landmark, false, false});
+  nodes_.push_back({start, std::cos(start.yaw), std::sin(start.yaw), {}, is_landmark, false, false, false});
   delta_.insert(delta_.end(), kBlock, 0.0);
   index_.push_back(-1);
   tree_.add_node();
@@ -69,13 +69,16 @@ void IncrementalFit::claim_around(std::uint32_t node) {
   }
 }
 
+void IncrementalFit::list_far(std::uint32_t node) {
+  if (!std::exchange(nodes_[node].is_far, true)) far_.push_back(node);
+}
+
 void IncrementalFit::relinearise(IncrementalStep& step) {
-  std::sort(far_.begin(), far_.end());
-  far_.erase(std::unique(far_.begin(), far_.end()), far_.end());
   std::vector<std::pair<double, std::uint32_t>> far;
   for (const std::uint32_t node : far_) {
     const double off = distance(twist(node));
     if (off > 1) far.emplace_back(-off, node);
+    nodes_[node].is_far = false;
   }
   far_.clear();
   std::sort(far.begin(), far.end());
@@ -87,7 +90,7 @@ void IncrementalFit::relinearise(IncrementalStep& step) {
       if (other != kWorld) more = std::max(more, tree_.work_to_claim(static_cast<std::int32_t>(other)));
     }
     if (step.relinearised > 0 && work + more > options_.most_work) {
-      far_.push_back(node);
+      list_far(node);
       continue;
     }
     work += more;
@@ -237,7 +240,7 @@ IncrementalStep IncrementalFit::step() {
   std::vector<SolutionChange> changes = tree_.back_substitute(delta_, options_.propagate_beyond);
   step.moved = changes.size();
   for (const SolutionChange& change : changes) {
-    if (distance(twist(change.node)) > 1) far_.push_back(static_cast<std::uint32_t>(change.node));
+    if (distance(twist(change.node)) > 1) list_far(static_cast<std::uint32_t>(change.node));
   }
   step.solved_fully = take_back(std::move(changes));
   return step;

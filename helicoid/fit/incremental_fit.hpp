@@ -70,9 +70,11 @@ class IncrementalFit {
     double cosine = 1, sine = 0;
     std::vector<std::uint32_t> relations;
     bool is_landmark = false, is_held = false, is_removed = false;
+    bool is_far = false;  ///< it is in far_
   };
   void linearise_at(std::uint32_t node, const Pose2& pose);
   void claim_around(std::uint32_t node);
+  void list_far(std::uint32_t node);
   void relinearise(IncrementalStep& step);
   IncrementalStep step();
   /// From where the node is linearised.
