@@ -45,8 +45,9 @@ struct Benchmark {
 
 [[nodiscard]] std::vector<Benchmark> reading_benchmarks(const BenchOptions& options);
 [[nodiscard]] std::vector<Benchmark> ray_benchmarks(const BenchOptions& options);
-/// Needs the judge, built beside the program where Ceres is installed.
+/// Needs the judges, built beside the program where Ceres and CHOLMOD are installed.
 [[nodiscard]] std::vector<Benchmark> fit_benchmarks(const BenchOptions& options);
+[[nodiscard]] std::vector<Benchmark> confidence_benchmarks(const BenchOptions& options);
 [[nodiscard]] std::vector<Benchmark> mapping_benchmarks(const BenchOptions& options);
 /// Instructions a scan on lap ten against lap two, counted by valgrind's callgrind.
 [[nodiscard]] std::vector<Benchmark> lap_benchmarks(const BenchOptions& options);

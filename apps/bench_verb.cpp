@@ -78,7 +78,8 @@ int run_verb(BenchArguments a) {
 
 std::vector<Benchmark> benchmarks(const BenchOptions& options) {
   std::vector<Benchmark> all;
-  for (const auto& make : {reading_benchmarks, ray_benchmarks, fit_benchmarks, mapping_benchmarks, lap_benchmarks}) {
+  for (const auto& make : {reading_benchmarks, ray_benchmarks, fit_benchmarks, confidence_benchmarks,
+                           mapping_benchmarks, lap_benchmarks}) {
     for (Benchmark& b : make(options)) all.push_back(std::move(b));
   }
   return all;
@@ -88,7 +89,7 @@ void add_bench_verb(CLI::App& program, int& exit_code) {
   auto a = std::make_shared<BenchArguments>();
   CLI::App* verb = program.add_subcommand("bench", "Measure quality and CPU time, each beside a baseline");
   verb->add_option("--filter", a->filter,
-                   "only benchmarks whose name holds this (read, rays, fit, map, laps, office, ...)");
+                   "only benchmarks whose name holds this (read, rays, fit, confidence, map, laps, office, ...)");
   verb->add_option("--data", a->options.data, "the folder of recorded data; logs that are not there are skipped");
   verb->add_flag("--large", a->options.large, "also what takes a minute and gigabytes (fit grid 1000000)");
   verb->add_option("--repeats", a->options.repeats, "the least CPU time of so many runs counts")

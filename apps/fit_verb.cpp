@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/progress_bar.hpp"
 #include "apps/verb.hpp"
 #include "helicoid/base/whole_file.hpp"
 #include "helicoid/fit/fit_from_start.hpp"
@@ -129,8 +130,10 @@ void warn_of(const GraphFile& file, const std::string& name) {
   for (const Skipped& s : file.skipped) report_warning(fmt::format("{} x {}, first at {}", s.count, s.reason, s.first));
   const std::size_t components = find_components(file.graph).size();
   if (components > 1) {
-    report_warning(fmt::format("{}: falls apart into {} components; each is fitted with its own lowest pose held", name,
-                               components));
+    report_warning(
+        fmt::format("{}: falls apart into {} components; each is fitted with its FIX nodes held, or else with "
+                    "its own lowest pose",
+                    name, components));
   }
 }
 
@@ -141,6 +144,16 @@ FitOptions options_of(const FitArguments& a) {
   options.loss.width = a.width;
   options.max_iterations = a.max_iterations;
   return options;
+}
+
+StartedFit run_fit(const GraphFile& file, FitStart start, const FitArguments& a) {
+  ProgressBar bar;
+  bar.say(fmt::format("{} nodes, {} relations: ordering", file.ids.size(), file.graph.relations.size()));
+  FitOptions options = options_of(a);
+  options.progress = [&bar](int iteration, double cost) {
+    bar.say(fmt::format("iteration {}, cost {:.9g}", iteration, 2 * cost));
+  };
+  return fit_from(file.graph, start, options, file.fixed);
 }
 
 int run_verb(const FitArguments& a) {
@@ -154,7 +167,7 @@ int run_verb(const FitArguments& a) {
     report_warning(fmt::format("{}: has no VERTEX lines; the fit starts from the odometry chain", a.graph));
   }
   if (!all_placed) file->graph.poses = odometry_start(file->graph, file->is_placed);
-  StartedFit started = fit_from(file->graph, start, options_of(a));
+  StartedFit started = run_fit(*file, start, a);
   if (none_placed && started.start == FitStart::given) started.start = FitStart::odometry;
   if (!a.out.empty()) {
     if (auto done = write_whole_file(a.out, to_graph_text(*file, started.result.poses)); !done) {
@@ -202,7 +215,9 @@ void add_fit_verb(CLI::App& program, int& exit_code) {
   verb->add_flag("--json", a->json, "print one JSON object");
   verb->footer(
       "Examples:\n  helicoid fit manhattan.g2o.gz --out fitted.g2o\n"
-      "  helicoid fit graph.g2o --confidence sigmas.txt --relative-to 0 --json");
+      "  helicoid fit graph.g2o --loss truncated  (lets wrong relations go)\n"
+      "  helicoid fit graph.g2o --confidence sigmas.txt --relative-to 0 --json\n"
+      "Costs are sums of e^T Omega e. Nodes of FIX lines are held; in each component without one the lowest id is.");
   verb->callback([a, &exit_code] { exit_code = run_verb(*a); });
 }
 

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <string>
 
 namespace helicoid {
 
@@ -22,6 +21,15 @@ void ProgressBar::show(double share, const char* what) {
   shown_ = true;
   const auto filled = static_cast<std::size_t>(kWidth * share);
   fmt::print(stderr, "\r{} [{}{}] {:3d} %", what, std::string(filled, '='), std::string(kWidth - filled, ' '), percent);
+  std::fflush(stderr);
+}
+
+void ProgressBar::say(const std::string& what) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!on_terminal_ || (shown_ && now - said_ < std::chrono::milliseconds(100))) return;
+  said_ = now;
+  shown_ = true;
+  fmt::print(stderr, "\r\033[K{}", what);
   std::fflush(stderr);
 }
 

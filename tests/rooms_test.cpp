@@ -81,8 +81,8 @@ std::string target_of(const Include& include, const std::string& path) {
     if (include.header.starts_with(third.headers)) return third.target;
   }
   if (include.header.find_first_of("./") == std::string::npos) return "";
-  static const std::vector<std::string> kTools = {"gtest/",    "gmock/",    "rapidcheck", "benchmark/",
-                                                  "nlohmann/", "sqlite3.h", "ceres/"};
+  static const std::vector<std::string> kTools = {"gtest/",     "gmock/",    "rapidcheck",
+                                                  "benchmark/", "nlohmann/", "sqlite3.h"};
   if (is_beside(path) && starts_with_any(include.header, kTools)) return "";
   static const std::vector<std::string> kSystem = {"fcntl.h", "malloc.h", "unistd.h", "sys/", "immintrin.h"};
   return path.ends_with(".cpp") && starts_with_any(include.header, kSystem) ? "" : "?";
@@ -158,6 +158,20 @@ TEST(Rooms, LeaveTheCommandLineToTheEdge) {
     }
   }
   EXPECT_THAT(wrong, IsEmpty());
+}
+
+/// CHOLMOD's supernodal part is under the GPL, and what is installed is not.
+TEST(Rooms, LeaveTheJudgesOfTheFitToBenchmarks) {
+  std::vector<std::string> wrong;
+  for (const char* folder : {"helicoid", "apps", "tests", "examples"}) {
+    for (const std::string& path : files_below(folder, {".hpp", ".cpp"})) {
+      for (const Include& include : includes_of(text_of(path))) {
+        if (include.header.starts_with("ceres/") || include.header.starts_with("cholmod")) wrong.push_back(path);
+      }
+    }
+  }
+  EXPECT_THAT(wrong, IsEmpty());
+  EXPECT_EQ(text_of("bench/CMakeLists.txt").find("install("), std::string::npos);
 }
 
 TEST(Rooms, OnlyMappingAndStoreChangeAMap) {

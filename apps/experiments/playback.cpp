@@ -40,7 +40,7 @@ struct Snapshot {
 struct Played {
   std::vector<double> step_s;  ///< CPU seconds
   std::vector<Snapshot> snapshots;
-  std::size_t waiting = 0, eliminated = 0, relinearised = 0, undetermined = 0;
+  std::size_t waiting = 0, eliminated = 0, relinearised = 0, undetermined = 0, solved_fully = 0;
 };
 
 struct Excess {
@@ -79,6 +79,7 @@ Played play(const std::vector<std::vector<GraphRelation>>& steps) {
       p.eliminated += step.eliminated;
       p.relinearised += step.relinearised;
       p.undetermined += step.is_determined ? 0 : 1;
+      p.solved_fully += step.solved_fully ? 1 : 0;
     }
     p.step_s.push_back(seconds);
     const bool is_last = node + 1 == steps.size();
@@ -113,7 +114,8 @@ Result<Outcome> measure(const std::string& path, double allowed_s) {
                   {"eliminated_a_step_count", static_cast<double>(p.eliminated) / count},
                   {"relinearised_a_step_count", static_cast<double>(p.relinearised) / count},
                   {"most_waiting_count", static_cast<double>(p.waiting)},
-                  {"undetermined_steps_count", static_cast<double>(p.undetermined)}},
+                  {"undetermined_steps_count", static_cast<double>(p.undetermined)},
+                  {"full_solves_count", static_cast<double>(p.solved_fully)}},
                  {}};
 }
 

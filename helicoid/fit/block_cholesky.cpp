@@ -1,6 +1,7 @@
 #include "helicoid/fit/block_cholesky.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace helicoid {
 
@@ -25,12 +26,44 @@ BlockMatrix make_block_matrix(const Adjacency& graph, const Supernodes& supernod
   return H;
 }
 
+std::vector<double> multiply(const BlockMatrix& H, std::span<const double> x) {
+  std::vector<double> product(x.size(), 0.0);
+  for (std::int32_t k = 0; k < H.nodes(); ++k) {
+    const double* block = H.diagonal.data() + 9 * static_cast<std::size_t>(k);
+    for (int j = 0; j < kBlock; ++j) {
+      for (int i = 0; i < kBlock; ++i) product[kBlock * k + i] += block[i + 3 * j] * x[kBlock * k + j];
+    }
+    for (std::size_t e = H.first[k]; e < H.first[k + 1]; ++e) {
+      block = H.below.data() + 9 * e;
+      for (int j = 0; j < kBlock; ++j) {
+        for (int i = 0; i < kBlock; ++i) {
+          product[kBlock * H.row[e] + i] += block[i + 3 * j] * x[kBlock * k + j];
+          product[kBlock * k + j] += block[i + 3 * j] * x[kBlock * H.row[e] + i];
+        }
+      }
+    }
+  }
+  return product;
+}
+
+double relative_residual(const BlockMatrix& H, std::span<const double> x, std::span<const double> right) {
+  const std::vector<double> left = multiply(H, x);
+  double off = 0;
+  double whole = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    off += (left[i] - right[i]) * (left[i] - right[i]);
+    whole += right[i] * right[i];
+  }
+  return std::sqrt(off / whole);
+}
+
 BlockCholesky::BlockCholesky(const Supernodes& supernodes, const FrontKernels& kernels)
-    : supernodes_(&supernodes), kernels_(&kernels), panels_(supernodes.panels) {
+    : supernodes_(&supernodes), kernels_(&kernels) {
   // Parents follow their children, so that at a supernode its children's updates lie on top of the other depth's stack.
   std::size_t work = 0;
   std::size_t top[2] = {0, 0};
   std::size_t most[2] = {0, 0};
+  std::size_t reach[2] = {0, 0};
   std::vector<std::size_t> released(supernodes.tree.size(), SIZE_MAX);
   update_at_.resize(supernodes.tree.size());
   for (std::size_t k = 0; k < supernodes.tree.size(); ++k) {
@@ -39,12 +72,23 @@ BlockCholesky::BlockCholesky(const Supernodes& supernodes, const FrontKernels& k
     const int parity = s.depth % 2;
     update_at_[k] = top[parity];
     top[parity] += s.shape().update_size();
-    most[parity] = std::max(most[parity], top[parity]);
+    for (int p = 0; p < 2; ++p) {
+      most[p] = std::max(most[p], top[p]);
+      reach[p] = std::max(reach[p], s.panel + s.shape().panel_size() + top[p]);
+    }
     if (released[k] != SIZE_MAX) top[1 - parity] = released[k];
     if (s.parent >= 0) released[s.parent] = std::min(released[s.parent], update_at_[k]);
   }
   workspace_ = WorkMemory(work);
-  for (int parity = 0; parity < 2; ++parity) stacks_[parity] = WorkMemory(most[parity] + kStrip);
+  within_ = reach[0] + most[1] < reach[1] + most[0] ? 0 : 1;
+  panels_ = WorkMemory(reach[within_] + kStrip);
+  stack_ = WorkMemory(most[1 - within_] + kStrip);
+}
+
+double* BlockCholesky::update_of(std::size_t k) const {
+  const Supernode& s = supernodes_->tree[k];
+  if (s.depth % 2 != within_) return stack_.data() + update_at_[k];
+  return panels_.data() + (panels_.size() - kStrip - update_at_[k] - s.shape().update_size());
 }
 
 void BlockCholesky::prepare(const BlockMatrix& H) {
@@ -52,20 +96,21 @@ void BlockCholesky::prepare(const BlockMatrix& H) {
   block_at_.resize(H.row.size());
   for (std::int32_t node = 0; node < H.nodes(); ++node) {
     const Supernode& s = supernodes_->tree[supernodes_->of[node]];
-    const auto leading = static_cast<std::size_t>(s.shape().leading());
-    const std::size_t column = s.panel + kBlock * static_cast<std::size_t>(node - s.first) * leading;
+    const std::ptrdiff_t column =
+        static_cast<std::ptrdiff_t>(s.panel) + s.shape().panel_column(kBlock * (node - s.first));
     for (std::size_t e = H.first[node]; e < H.first[node + 1]; ++e) {
-      block_at_[e] = column + static_cast<std::size_t>(supernodes_->panel_row(s, H.row[e]));
+      block_at_[e] = static_cast<std::size_t>(column + supernodes_->panel_row(s, H.row[e]));
     }
   }
 }
 
 void BlockCholesky::assemble(const BlockMatrix& H, const Supernode& s, double damping) {
-  const auto leading = static_cast<std::size_t>(s.shape().leading());
-  std::fill_n(panels_.data() + s.panel, s.shape().panel_size(), 0.0);
+  const FrontShape shape = s.shape();
+  std::fill_n(panels_.data() + s.panel, shape.panel_size(), 0.0);
   for (std::int32_t node = s.first; node < s.first + s.count; ++node) {
-    const auto local = kBlock * static_cast<std::size_t>(node - s.first);
-    double* block = panels_.data() + s.panel + local * (leading + 1);
+    const std::int32_t local = kBlock * (node - s.first);
+    const auto leading = static_cast<std::size_t>(between_columns(shape.leading(), local));
+    double* block = panels_.data() + s.panel + shape.panel_column(local) + local;
     const double* from = H.diagonal.data() + 9 * static_cast<std::size_t>(node);
     for (std::size_t j = 0; j < 3; ++j) {
       for (std::size_t i = 0; i < 3; ++i) block[i + j * leading] = from[i + 3 * j];
@@ -86,19 +131,17 @@ void BlockCholesky::assemble(const BlockMatrix& H, const Supernode& s, double da
 void BlockCholesky::add_update(const Supernode& child, const double* update, const Supernode& parent,
                                double* parent_update) {
   const FrontShape shape = parent.shape();
+  const FrontShape child_shape = child.shape();
   const auto runs = supernodes_->runs_of(child);
-  const std::ptrdiff_t child_leading = padded(kBlock * child.below);
-  const std::ptrdiff_t update_leading = padded(shape.below);
   const std::int32_t first_below = shape.first_below();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const FrontRun& columns = runs[r];
     const bool in_panel = columns.to < first_below;
     for (std::int32_t c = 0; c < columns.length; ++c) {
-      const double* source = update + (columns.from + c) * child_leading;
-      // Rows count from the start of this column's storage: the whole panel, or what is below.
-      double* target =
-          in_panel ? panels_.data() + parent.panel + (columns.to + c) * static_cast<std::ptrdiff_t>(shape.leading())
-                   : parent_update + (columns.to + c - first_below) * update_leading - first_below;
+      const double* source = update + child_shape.update_column(columns.from + c);
+      // Rows count from the top of the column: of the panel, or of what is below.
+      double* target = in_panel ? panels_.data() + parent.panel + shape.panel_column(columns.to + c)
+                                : parent_update + shape.update_column(columns.to + c - first_below) - first_below;
       for (std::int32_t i = c; i < columns.length; ++i) target[columns.to + i] += source[columns.from + i];
       for (std::size_t q = r + 1; q < runs.size(); ++q) {
         double* to = target + runs[q].to;
@@ -122,11 +165,11 @@ bool BlockCholesky::factorise(const BlockMatrix& H, double damping) {
   for (std::size_t k = 0; k < tree.size(); ++k) {
     const Supernode& s = tree[k];
     assemble(H, s, damping);
-    double* update = stacks_[s.depth % 2].data() + update_at_[k];
+    double* update = update_of(k);
     std::fill_n(update, s.shape().update_size(), 0.0);
     for (; !pending.empty() && tree[pending.back()].parent == static_cast<std::int32_t>(k); pending.pop_back()) {
-      const Supernode& child = tree[pending.back()];
-      add_update(child, stacks_[child.depth % 2].data() + update_at_[pending.back()], s, update);
+      const auto child = static_cast<std::size_t>(pending.back());
+      add_update(tree[child], update_of(child), s, update);
     }
     if (!kernels_->eliminate(s.shape(), panels_.data() + s.panel, update, workspace_.data())) return false;
     if (s.parent >= 0) pending.push_back(static_cast<std::int32_t>(k));

@@ -23,6 +23,11 @@ struct BlockMatrix {
 /// All zeros, with room for the graph's edges.
 [[nodiscard]] BlockMatrix make_block_matrix(const Adjacency& graph, const Supernodes& supernodes);
 
+/// H x.
+[[nodiscard]] std::vector<double> multiply(const BlockMatrix& H, std::span<const double> x);
+/// |H x - right| / |right|: the proof of a solution.
+[[nodiscard]] double relative_residual(const BlockMatrix& H, std::span<const double> x, std::span<const double> right);
+
 class BlockCholesky {
  public:
   /// The supernodes outlive the factor.
@@ -41,21 +46,25 @@ class BlockCholesky {
 
   [[nodiscard]] const Supernodes& supernodes() const { return *supernodes_; }
   /// Doubles in the factor.
-  [[nodiscard]] std::size_t size() const { return panels_.size(); }
+  [[nodiscard]] std::size_t size() const { return supernodes_->panels; }
 
  private:
   void assemble(const BlockMatrix& H, const Supernode& s, double damping);
   void add_update(const Supernode& child, const double* update, const Supernode& parent, double* parent_update);
   void prepare(const BlockMatrix& H);
+  [[nodiscard]] double* update_of(std::size_t supernode) const;
   void gather(const Supernode& s, std::span<const double> x, std::vector<double>& below) const;
   void forward(const Supernode& s, std::span<double> x, std::vector<double>& below) const;
 
   const Supernodes* supernodes_;
   const FrontKernels* kernels_;
+  /// Updates of supernodes of even and of odd depth lie on two stacks. One of them grows down from the end of the
+  /// panels, where those are that are not made yet.
   WorkMemory panels_;
+  WorkMemory stack_;  ///< the other
   WorkMemory workspace_;
-  WorkMemory stacks_[2];                ///< updates of supernodes of even and of odd depth
-  std::vector<std::size_t> update_at_;  ///< where each supernode's update begins in its stack
+  int within_ = 0;                      ///< which of the two stacks lies in the panels: 0, the even one, or 1
+  std::vector<std::size_t> update_at_;  ///< how deep each supernode's update lies in its stack
   std::vector<std::size_t> block_at_;   ///< where each entry of H goes in the panels
 };
 

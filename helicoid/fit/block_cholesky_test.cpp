@@ -11,14 +11,24 @@ namespace helicoid {
 
 namespace {
 
-/// A random positive definite matrix of blocks over a random graph, its supernodes and itself as a dense matrix.
+using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+/// A chain, and ties anywhere.
+Pairs random_pairs(std::uint64_t seed, std::int32_t nodes, std::int32_t ties) {
+  Random random(seed);
+  Pairs pairs;
+  const auto any = [&] { return static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(nodes))); };
+  for (std::int32_t i = 1; i < nodes; ++i) pairs.emplace_back(i - 1, i);
+  for (std::int32_t k = 0; k < ties; ++k) pairs.emplace_back(any(), any());
+  return pairs;
+}
+
+/// A random positive definite matrix of blocks over a graph, its supernodes and itself as a dense matrix.
 struct Sample {
-  Sample(std::uint64_t seed, std::int32_t nodes, std::int32_t ties, Ordering ordering) {
+  Sample(std::uint64_t seed, std::int32_t nodes, std::int32_t ties, Ordering ordering)
+      : Sample(seed, nodes, random_pairs(seed, nodes, ties), ordering) {}
+  Sample(std::uint64_t seed, std::int32_t nodes, const Pairs& pairs, Ordering ordering) {
     Random random(seed);
-    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-    const auto any = [&] { return static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(nodes))); };
-    for (std::int32_t i = 1; i < nodes; ++i) pairs.emplace_back(i - 1, i);
-    for (std::int32_t k = 0; k < ties; ++k) pairs.emplace_back(any(), any());
     graph = find_adjacency(nodes, pairs);
     supernodes = find_supernodes(graph, find_elimination_order(graph, ordering));
     H = make_block_matrix(graph, supernodes);
@@ -53,6 +63,29 @@ std::vector<const FrontKernels*> kernels() {
   return {&front_kernels(), &portable_front_kernels()};
 }
 
+void expect_diagonal(const std::vector<double>& blocks, const Eigen::MatrixXd& inverse) {
+  for (Eigen::Index i = 0; 9 * i < static_cast<Eigen::Index>(blocks.size()); ++i) {
+    const Eigen::Map<const Matrix3d> block(blocks.data() + 9 * i);
+    EXPECT_LT((block - inverse.block<3, 3>(3 * i, 3 * i)).lpNorm<Eigen::Infinity>(), 1e-12);
+  }
+}
+
+void expect_as_dense(const Sample& s) {
+  Random random(7);
+  Eigen::VectorXd right(s.dense.rows());
+  for (double& r : right) r = random.normal();
+  const Eigen::VectorXd expected = s.dense.llt().solve(right);
+  const Eigen::MatrixXd inverse = s.dense.inverse();
+  for (const FrontKernels* k : kernels()) {
+    BlockCholesky cholesky(s.supernodes, *k);
+    ASSERT_TRUE(cholesky.factorise(s.H));
+    Eigen::VectorXd x = right;
+    cholesky.solve({x.data(), static_cast<std::size_t>(x.size())});
+    EXPECT_LT((x - expected).lpNorm<Eigen::Infinity>(), 1e-11) << k->processor_class;
+    expect_diagonal(cholesky.inverse_diagonal(), inverse);
+  }
+}
+
 }  // namespace
 
 TEST(BlockCholesky, SolvesAsADenseSolverDoesWhateverTheOrder) {
@@ -69,6 +102,11 @@ TEST(BlockCholesky, SolvesAsADenseSolverDoesWhateverTheOrder) {
         Eigen::VectorXd x = right;
         cholesky.solve({x.data(), static_cast<std::size_t>(x.size())});
         EXPECT_LT((x - expected).lpNorm<Eigen::Infinity>(), 1e-11) << k->processor_class << " seed " << seed;
+        const auto size = static_cast<std::size_t>(x.size());
+        EXPECT_LT(relative_residual(s.H, {x.data(), size}, {right.data(), size}), 1e-12);
+        // The residual is the dense one, of other vectors, too.
+        EXPECT_NEAR(relative_residual(s.H, {right.data(), size}, {right.data(), size}),
+                    (s.dense * right - right).norm() / right.norm(), 1e-10);
       }
     }
   }
@@ -82,34 +120,42 @@ TEST(BlockCholesky, InvertsTheDiagonalAsADenseInverseDoes) {
       for (const FrontKernels* k : kernels()) {
         BlockCholesky cholesky(s.supernodes, *k);
         ASSERT_TRUE(cholesky.factorise(s.H));
-        const std::vector<double> blocks = cholesky.inverse_diagonal();
-        for (Eigen::Index i = 0; 9 * i < static_cast<Eigen::Index>(blocks.size()); ++i) {
-          const Eigen::Map<const Matrix3d> block(blocks.data() + 9 * i);
-          EXPECT_LT((block - expected.block<3, 3>(3 * i, 3 * i)).lpNorm<Eigen::Infinity>(), 1e-12);
-        }
+        expect_diagonal(cholesky.inverse_diagonal(), expected);
       }
     }
   }
 }
 
-TEST(BlockCholesky, FactorisesFrontsThatAreLargerThanAPanel) {
-  // A graph that is nearly complete has one large front: panels, packing and remainders all come into play.
-  const Sample s(7, 190, 9000, Ordering::minimum_degree);
-  Random random(7);
-  Eigen::VectorXd right(s.dense.rows());
-  for (double& r : right) r = random.normal();
-  const Eigen::VectorXd expected = s.dense.llt().solve(right);
-  const Eigen::MatrixXd inverse = s.dense.inverse();
-  for (const FrontKernels* k : kernels()) {
-    BlockCholesky cholesky(s.supernodes, *k);
-    ASSERT_TRUE(cholesky.factorise(s.H));
-    Eigen::VectorXd x = right;
-    cholesky.solve({x.data(), static_cast<std::size_t>(x.size())});
-    EXPECT_LT((x - expected).lpNorm<Eigen::Infinity>(), 1e-11) << k->processor_class;
-    const std::vector<double> blocks = cholesky.inverse_diagonal();
-    for (Eigen::Index i = 0; i < 190; ++i) {
-      const Eigen::Map<const Matrix3d> block(blocks.data() + 9 * i);
-      EXPECT_LT((block - inverse.block<3, 3>(3 * i, 3 * i)).lpNorm<Eigen::Infinity>(), 1e-12);
+TEST(BlockCholesky, FactorisesFrontsOfManyBands) {
+  // A graph that is nearly complete has one large front: bands, packing and remainders all come into play.
+  expect_as_dense(Sample(7, 190, 9000, Ordering::minimum_degree));
+  // Cliques that share a set of nodes which is as large: fronts with updates of many bands, added to one another.
+  for (const std::int32_t size : {31, 32, 33, 65, 70}) {
+    Pairs pairs;
+    for (const std::int32_t first : {0, size, 2 * size}) {
+      for (std::int32_t i = first; i < first + size; ++i) {
+        for (std::int32_t j = first; j < i; ++j) pairs.emplace_back(i, j);
+        for (std::int32_t j = 3 * size; j < 4 * size; ++j) pairs.emplace_back(i, j);
+      }
+    }
+    const Sample s(7, 4 * size, pairs, Ordering::natural);
+    ASSERT_GT(s.supernodes.tree.size(), 2U);
+    expect_as_dense(s);
+  }
+}
+
+TEST(FrontShape, StoresLowerHalvesWithoutGapsAndLittleAboveTheDiagonal) {
+  for (const int height : {8, 96, 104, 200, 1000}) {
+    for (int columns = 1; columns <= height; ++columns) {
+      std::ptrdiff_t end = 0;
+      for (int c = 0; c < columns; ++c) {
+        // A column is stored from the first row of its band on, after the column before it.
+        EXPECT_EQ(column_of_half(height, c) + c / kBand * kBand, end);
+        end = column_of_half(height, c) + height;
+      }
+      EXPECT_EQ(half_size(height, columns), static_cast<std::size_t>(end));
+      const std::ptrdiff_t half = static_cast<std::ptrdiff_t>(height) * columns - columns * (columns - 1) / 2;
+      EXPECT_LE(end, half + columns * kBand / 2);
     }
   }
 }

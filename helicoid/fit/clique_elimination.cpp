@@ -68,18 +68,20 @@ void CliqueTree::place_orphans(Elimination& e) {
 
 void CliqueTree::assemble(const Elimination& e, const Supernode& s, Clique& clique) const {
   const FrontShape shape = clique.shape();
-  const std::ptrdiff_t leading = shape.leading();
   for (std::int32_t k = 0; k < s.count; ++k) {
     const std::int32_t index = e.supernodes.order[s.first + k];
-    add_block(clique.panel() + kBlock * k * (leading + 1), leading, e.system->diagonal[index].data(), kBlock);
+    const std::int32_t corner = kBlock * k;
+    add_block(clique.panel() + shape.panel_column(corner) + corner, between_columns(shape.leading(), corner),
+              e.system->diagonal[index].data(), kBlock);
     for (int i = 0; i < kBlock; ++i) clique.right()[kBlock * k + i] -= e.system->gradient[index][i];
   }
   for (const std::int32_t t : e.ties[&s - e.supernodes.tree.data()]) {
     const LooseSystem::Tie& tie = e.system->ties[t];
     const std::int32_t a = e.supernodes.place[tie.a];
     const std::int32_t b = e.supernodes.place[tie.b];
-    double* column = clique.panel() + kBlock * (std::min(a, b) - s.first) * leading;
-    double* target = column + e.supernodes.panel_row(s, std::max(a, b));
+    const std::int32_t column = kBlock * (std::min(a, b) - s.first);
+    double* target = clique.panel() + shape.panel_column(column) + e.supernodes.panel_row(s, std::max(a, b));
+    const std::ptrdiff_t leading = between_columns(shape.leading(), column);
     if (a > b) {
       add_block(target, leading, tie.block.data(), kBlock);
     } else {
@@ -90,7 +92,7 @@ void CliqueTree::assemble(const Elimination& e, const Supernode& s, Clique& cliq
 
 void CliqueTree::add_child(const Clique& child, Clique& parent, const Elimination& e, const Supernode& s) const {
   const FrontShape shape = parent.shape();
-  const std::ptrdiff_t from_leading = padded(child.shape().below);
+  const FrontShape child_shape = child.shape();
   std::vector<std::int32_t> rows;
   rows.reserve(child.below.size());
   for (const std::int32_t node : child.below) rows.push_back(e.supernodes.panel_row(s, e.place_of(node)));
@@ -98,16 +100,20 @@ void CliqueTree::add_child(const Clique& child, Clique& parent, const Eliminatio
     double* right = rows[j] < shape.first_below() ? parent.right() + rows[j]
                                                   : parent.right_below() + (rows[j] - shape.first_below());
     for (std::size_t i = 0; i < kBlock; ++i) right[i] += child.right_below()[kBlock * j + i];
+    const auto from_column = kBlock * static_cast<std::int32_t>(j);
+    const double* from = child.update() + child_shape.update_column(from_column);
+    const std::ptrdiff_t from_leading = between_columns(padded(child_shape.below), from_column);
     for (std::size_t i = j; i < rows.size(); ++i) {
-      const double* block = child.update() + kBlock * i + kBlock * j * static_cast<std::size_t>(from_leading);
+      const double* block = from + kBlock * i;
       // An older clique's nodes may now be eliminated in another order.
       const std::int32_t column = std::min(rows[i], rows[j]);
       const std::int32_t row = std::max(rows[i], rows[j]);
       const bool in_panel = column < shape.first_below();
-      const std::ptrdiff_t leading = in_panel ? shape.leading() : padded(shape.below);
-      double* target = in_panel
-                           ? parent.panel() + column * leading + row
-                           : parent.update() + (column - shape.first_below()) * leading + row - shape.first_below();
+      const std::int32_t above = in_panel ? 0 : shape.first_below();
+      double* target = row - above +
+                       (in_panel ? parent.panel() + shape.panel_column(column)
+                                 : parent.update() + shape.update_column(column - above));
+      const std::ptrdiff_t leading = between_columns(in_panel ? shape.leading() : padded(shape.below), column - above);
       if (rows[i] >= rows[j]) {
         add_block(target, leading, block, from_leading);
       } else {
@@ -134,8 +140,7 @@ bool CliqueTree::eliminate_front(Elimination& e, std::int32_t supernode) {
   if (workspace_.size() < shape.workspace_size()) workspace_ = WorkMemory(2 * shape.workspace_size());
   bool is_positive = front_kernels().eliminate(shape, clique.panel(), clique.update(), workspace_.data());
   for (int i = 0; i < shape.pivots && is_positive; ++i) {
-    const double inverse =
-        clique.panel()[static_cast<std::size_t>(i) * (static_cast<std::size_t>(shape.leading()) + 1)];
+    const double inverse = clique.panel()[shape.panel_column(i) + i];
     const Matrix3d& own = e.system->diagonal[e.supernodes.order[s.first + i / kBlock]];
     is_positive = 1 > kLeastPivot * inverse * inverse * own(i % kBlock, i % kBlock);
   }

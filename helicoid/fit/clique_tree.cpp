@@ -66,7 +66,7 @@ std::vector<std::int32_t> CliqueTree::release() {
 }
 
 void CliqueTree::substitute(const Clique& clique, std::span<double> x, double tolerance,
-                            std::vector<std::int32_t>& changed) {
+                            std::vector<SolutionChange>& changes) {
   const FrontShape shape = clique.shape();
   scratch_.assign(static_cast<std::size_t>(shape.leading()), 0.0);
   double* below = scratch_.data() + shape.first_below();
@@ -80,21 +80,21 @@ void CliqueTree::substitute(const Clique& clique, std::span<double> x, double to
     double change = 0;
     for (int i = 0; i < kBlock; ++i) change = std::max(change, reach[i] * std::abs(value[i] - old[i]));
     if (change > tolerance) {
+      changes.push_back({node, {old[0], old[1], old[2]}});
       std::copy_n(value, kBlock, old);
-      changed.push_back(node);
       changed_[node] = round_;
     }
     value += kBlock;
   }
 }
 
-std::vector<std::int32_t> CliqueTree::back_substitute(std::span<double> x, double tolerance) {
-  std::vector<std::int32_t> changed;
+std::vector<SolutionChange> CliqueTree::back_substitute(std::span<double> x, double tolerance) {
+  std::vector<SolutionChange> changes;
   std::vector<std::int32_t> stack = roots_;
   while (!stack.empty()) {
     const Clique& clique = cliques_[stack.back()];
     stack.pop_back();
-    substitute(clique, x, tolerance, changed);
+    substitute(clique, x, tolerance, changes);
     for (const std::int32_t c : clique.children) {
       const Clique& child = cliques_[c];
       const bool concerned = child.made == round_ || std::any_of(child.below.begin(), child.below.end(),
@@ -102,7 +102,7 @@ std::vector<std::int32_t> CliqueTree::back_substitute(std::span<double> x, doubl
       if (concerned) stack.push_back(c);
     }
   }
-  return changed;
+  return changes;
 }
 
 }  // namespace helicoid

@@ -30,6 +30,12 @@ struct LooseSystem {
 /// Turns count as the move that they make at this distance, metres.
 inline constexpr double kTurnReach = 10;
 
+/// A node whose solution changed, and what it was before.
+struct SolutionChange {
+  std::int32_t node = 0;
+  Vector3d before;
+};
+
 class CliqueTree {
  public:
   /// A new node, in no clique.
@@ -48,8 +54,8 @@ class CliqueTree {
   /// Makes cliques of loose nodes. What depends on a pivot that is not positive stays loose; false if something does.
   bool eliminate(const LooseSystem& system);
   /// H x = -gradient, from the roots down as far as some x changes by more than the tolerance; x has three numbers a
-  /// node. The nodes whose x changed.
-  [[nodiscard]] std::vector<std::int32_t> back_substitute(std::span<double> x, double tolerance);
+  /// node.
+  [[nodiscard]] std::vector<SolutionChange> back_substitute(std::span<double> x, double tolerance);
 
  private:
   /// panel | update | pivots' right side | right side passed on.
@@ -80,7 +86,7 @@ class CliqueTree {
   void assemble(const Elimination& elimination, const Supernode& s, Clique& clique) const;
   void add_child(const Clique& child, Clique& parent, const Elimination& elimination, const Supernode& s) const;
   [[nodiscard]] bool eliminate_front(Elimination& elimination, std::int32_t supernode);
-  void substitute(const Clique& clique, std::span<double> x, double tolerance, std::vector<std::int32_t>& changed);
+  void substitute(const Clique& clique, std::span<double> x, double tolerance, std::vector<SolutionChange>& changes);
 
   std::vector<Clique> cliques_;
   std::vector<std::int32_t> free_;       ///< cliques_ that stand empty

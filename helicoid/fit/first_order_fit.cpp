@@ -29,20 +29,6 @@ std::vector<double> preconditioned(const LinearSystem& system) {
   return direction;
 }
 
-/// direction^T H direction: the curvature along it.
-double curvature(const BlockMatrix& H, std::span<const double> direction) {
-  double sum = 0;
-  for (std::size_t k = 0; 3 * k < direction.size(); ++k) {
-    const Eigen::Map<const Vector3d> x(direction.data() + 3 * k);
-    sum += x.dot(Eigen::Map<const Matrix3d>(H.diagonal.data() + 9 * k) * x);
-    for (std::size_t e = H.first[k]; e < H.first[k + 1]; ++e) {
-      const Eigen::Map<const Vector3d> y(direction.data() + 3 * H.row[e]);
-      sum += 2 * y.dot(Eigen::Map<const Matrix3d>(H.below.data() + 9 * e) * x);
-    }
-  }
-  return sum;
-}
-
 /// Preconditioned descent along one direction after another.
 class Descent {
  public:
@@ -63,6 +49,7 @@ class Descent {
         result_.status = FitStatus::converged;
         return;
       }
+      if (options_.progress) options_.progress(result_.iterations, result_.final_cost);
     }
   }
 
@@ -87,7 +74,7 @@ class Descent {
       const double turned = last_product_ + last_slope_;
       if (turned > 1e-12 * last_product_) return std::min(1e3, last_length_ * last_product_ / turned);
     }
-    return -dot(system_.gradient(), direction_) / curvature(system_.information(), direction_);
+    return -dot(system_.gradient(), direction_) / dot(direction_, multiply(system_.information(), direction_));
   }
 
   /// Costs may rise for some steps as long as the last ten stay below (Grippo, Lampariello and Lucidi 1986); conjugate

@@ -22,6 +22,8 @@ struct StartedFit {
   bool is_plausible = false;
 };
 
-[[nodiscard]] StartedFit fit_from(const RelationGraph& graph, FitStart start, const FitOptions& options = {});
+/// `held` nodes stay where `graph` has them; of a component that has none the first pose is held, as by `fit`.
+[[nodiscard]] StartedFit fit_from(const RelationGraph& graph, FitStart start, const FitOptions& options = {},
+                                  std::span<const std::uint32_t> held = {});
 
 }  // namespace helicoid

@@ -39,7 +39,10 @@ class LevenbergMarquardt {
     relinearise();
     result_.initial_cost = result_.final_cost;
     result_.status = FitStatus::iteration_limit;
-    while (result_.iterations < options_.max_iterations && result_.status == FitStatus::iteration_limit) iterate();
+    while (result_.iterations < options_.max_iterations && result_.status == FitStatus::iteration_limit) {
+      iterate();
+      if (options_.progress) options_.progress(result_.iterations, result_.final_cost);
+    }
   }
 
  private:
@@ -130,8 +133,9 @@ class LevenbergMarquardt {
     const bool undamped = damping_ == 0;
     lower_damping((before - result_.final_cost) / expected);
     if (small) result_.status = at_rest();
-    if (small || !undamped) return;
-    // The factor at hand is nearly right for the next step too: where that is the last one, it need not be made anew.
+    // After a step from far away, which halves the cost, more is to be done than the factor at hand can do.
+    if (small || !undamped || result_.final_cost < 0.5 * before) return;
+    // It is nearly right for the next step too: where that is the last one, it need not be made anew.
     step = solve();
     if (is_small(step)) {
       try_step(step);

@@ -2,6 +2,7 @@
 // long as they lower the cost; Fletcher-Reeves and gradient descent reach the same optimum slowly, without a matrix.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct FitOptions {
       false;        ///< ends with `cost_rose` at the third step that does not lower it: another start may be better
   RobustLoss loss;  ///< acts on relations that may be wrong
   Ordering ordering = Ordering::automatic;
+  /// Told of each iteration as it ends, with the cost (chi^2 / 2) so far.
+  std::function<void(int iteration, double cost)> progress;
 };
 
 /// CPU seconds of this thread.

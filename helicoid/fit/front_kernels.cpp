@@ -13,7 +13,7 @@ std::size_t FrontShape::workspace_size() const {
   const auto height = static_cast<std::size_t>(leading());
   const auto width = static_cast<std::size_t>(padded(pivots));
   // Packed panels of `eliminate`; X, two transposes and a square of `invert`.
-  return std::max<std::size_t>(height * 192, height * width + 2 * height * width + width * width);
+  return std::max<std::size_t>(height * kBand, height * width + 2 * height * width + width * width);
 }
 
 const FrontKernels& front_kernels() {

@@ -13,17 +13,38 @@ inline constexpr int kStrip = 8;
   return (rows + kStrip - 1) / kStrip * kStrip;
 }
 
+/// Lower halves are stored column-major in bands of so many columns; a band begins at the row of its own first column,
+/// so that next to nothing is stored of what lies above the diagonal. Whole strips of rows, whole blocks of columns.
+inline constexpr int kBand = 96;
+/// Where the top of a column would stand, were it stored, in a lower half of this height: rows count from there.
+[[nodiscard]] constexpr std::ptrdiff_t column_of_half(int height, int column) {
+  const std::ptrdiff_t whole = static_cast<std::ptrdiff_t>(height) * column;
+  if (column < kBand) return whole;
+  const std::ptrdiff_t bands = column / kBand;
+  return whole - bands * kBand * (column + 1) + bands * (bands + 1) / 2 * (kBand * kBand);
+}
+/// From a column to the next in its band.
+[[nodiscard]] constexpr std::ptrdiff_t between_columns(int height, int column) {
+  return column < kBand ? height : height - column / kBand * kBand;
+}
+[[nodiscard]] constexpr std::size_t half_size(int height, int columns) {
+  return columns == 0 ? 0 : static_cast<std::size_t>(column_of_half(height, columns - 1) + height);
+}
+
 /// The shape of a front: its first `pivots` unknowns are eliminated, the `below` others are passed on. Scalars.
-/// The panel is column-major, `leading` x pivots: rows [0, pivots) are the triangle, rows [first_below, first_below +
-/// below) what lies beneath it. The update is column-major, padded(below) x below, and only its lower half counts.
+/// The panel is the lower half of `leading` x pivots: rows [0, pivots) are the triangle, rows [first_below,
+/// first_below + below) what lies beneath it. The update is the lower half of padded(below) x below.
 struct FrontShape {
   int pivots = 0;
   int below = 0;
 
   [[nodiscard]] int first_below() const { return padded(pivots); }
   [[nodiscard]] int leading() const { return padded(pivots) + padded(below); }
-  [[nodiscard]] std::size_t panel_size() const { return static_cast<std::size_t>(leading()) * pivots; }
-  [[nodiscard]] std::size_t update_size() const { return static_cast<std::size_t>(padded(below)) * below; }
+  [[nodiscard]] std::size_t panel_size() const { return half_size(leading(), pivots); }
+  [[nodiscard]] std::size_t update_size() const { return half_size(padded(below), below); }
+  /// Tops of columns of the panel and of the update.
+  [[nodiscard]] std::ptrdiff_t panel_column(int column) const { return column_of_half(leading(), column); }
+  [[nodiscard]] std::ptrdiff_t update_column(int column) const { return column_of_half(padded(below), column); }
   /// What `eliminate` and `invert` need beside the front, in doubles.
   [[nodiscard]] std::size_t workspace_size() const;
 };

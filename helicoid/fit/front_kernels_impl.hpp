@@ -8,8 +8,6 @@ namespace helicoid {
 
 namespace {
 
-/// Pivots that are eliminated before the rest of a front is touched: a panel of them stays in the cache.
-constexpr int kPanel = 192;
 /// Fronts from this height on are packed, so that a tile's operands lie side by side.
 constexpr int kPackedHeight = 384;
 
@@ -80,39 +78,48 @@ bool eliminate_up_to_eight(int pivots, double* diagonal, std::ptrdiff_t leading,
   }
 }
 
+/// A lower half's columns from `begin` on, less a product: C -= A A^T; A's strips begin at row `begin`.
+void subtract_square(double* half, int height, int begin, int columns, Strips a, int depth) {
+  for (int j = begin; j < columns; j = (j / kBand + 1) * kBand) {
+    const Strips rows{a.first + (j - begin) / kStrip * a.between, a.column, a.between};
+    const int width = least(columns, (j / kBand + 1) * kBand) - j;
+    subtract_product(half + column_of_half(height, j) + j, between_columns(height, j), height - j, width, rows, rows,
+                     depth, true);
+  }
+}
+
+/// Band by band: its pivots are eliminated before the rest of the front is touched, while they stay in the cache.
 bool eliminate(const FrontShape& shape, double* panel, double* update, double* workspace) {
-  const std::ptrdiff_t leading = shape.leading();
   const int height = shape.leading();
   const int first_below = shape.first_below();
-  for (int begin = 0; begin < shape.pivots; begin += kPanel) {
-    const int end = least(shape.pivots, begin + kPanel);
+  for (int begin = 0; begin < shape.pivots; begin += kBand) {
+    const int end = least(shape.pivots, begin + kBand);
+    const std::ptrdiff_t leading = between_columns(height, begin);
+    double* band = panel + shape.panel_column(begin);
     for (int j = begin; j < end; j += kStrip) {
       const int width = least(kStrip, end - j);
-      double* diagonal = panel + j + j * leading;
-      const Strips rows{panel + j + begin * leading, leading, kStrip};
+      double* diagonal = band + j + (j - begin) * leading;
+      const Strips rows{band + j, leading, kStrip};
       if (j > begin) subtract_product(diagonal, leading, height - j, width, rows, rows, j - begin, false);
       if (!eliminate_up_to_eight(width, diagonal, leading, (height - j) / kStrip - 1)) return false;
     }
     if (end == shape.pivots && shape.below == 0) break;
     // What remains: the later pivots' columns, and the update.
     const int top = end < shape.pivots ? end : first_below;
-    const double* beneath = panel + top + begin * leading;
+    const double* beneath = band + top;
     const int depth = end - begin;
     const Strips rows = height - top > kPackedHeight ? pack(beneath, leading, height - top, depth, workspace)
                                                      : Strips{beneath, leading, kStrip};
-    if (end < shape.pivots) {
-      subtract_product(panel + end + end * leading, leading, height - end, shape.pivots - end, rows, rows, depth, true);
-    }
+    subtract_square(panel, height, end, shape.pivots, rows, depth);
     const Strips below{rows.first + (first_below - top) / kStrip * rows.between, rows.column, rows.between};
-    subtract_product(update, padded(shape.below), padded(shape.below), shape.below, below, below, depth, true);
+    subtract_square(update, padded(shape.below), 0, shape.below, below, depth);
   }
   return true;
 }
 
 void forward(const FrontShape& shape, const double* panel, double* pivots, double* below) {
-  const std::ptrdiff_t leading = shape.leading();
   const double* L = panel;
-  for (int j = 0; j < shape.pivots; ++j, L += leading) {
+  for (int j = 0; j < shape.pivots; L += between_columns(shape.leading(), ++j)) {
     const double x = pivots[j] * L[j];
     pivots[j] = x;
     for (int i = j + 1; i < shape.pivots; ++i) pivots[i] -= L[i] * x;
@@ -130,9 +137,8 @@ double dot_padded(const double* a, const double* b, int rows) {
 }
 
 void backward(const FrontShape& shape, const double* panel, double* pivots, const double* below) {
-  const std::ptrdiff_t leading = shape.leading();
   for (int j = shape.pivots - 1; j >= 0; --j) {
-    const double* L = panel + j * leading;
+    const double* L = panel + shape.panel_column(j);
     double x = pivots[j] - dot_padded(L + shape.first_below(), below, padded(shape.below));
     for (int i = j + 1; i < shape.pivots; ++i) x -= L[i] * pivots[i];
     pivots[j] = x * L[j];
@@ -142,18 +148,19 @@ void backward(const FrontShape& shape, const double* panel, double* pivots, cons
 /// X <- X T^-1 for X (rows x pivots) and the panel's triangle T, from the last column to the first.
 void solve_from_right(double* X, std::ptrdiff_t x_leading, int rows, const FrontShape& shape, const double* panel,
                       double* workspace) {
-  const std::ptrdiff_t leading = shape.leading();
   for (int j = (shape.pivots - 1) / kStrip * kStrip; j >= 0; j -= kStrip) {
+    const std::ptrdiff_t leading = between_columns(shape.leading(), j);
+    const double* triangle = panel + shape.panel_column(j);
     const int width = least(kStrip, shape.pivots - j);
     const int later = shape.pivots - j - width;
     if (later > 0) {
-      const Strips T = pack_transposed(panel + (j + width) + j * leading, leading, later, width, workspace);
+      const Strips T = pack_transposed(triangle + j + width, leading, later, width, workspace);
       const Strips rows_of_x{X + (j + width) * x_leading, x_leading, kStrip};
       subtract_product(X + j * x_leading, x_leading, rows, width, rows_of_x, T, later, false);
     }
     for (int l = width - 1; l >= 0; --l) {
       double* column = X + (j + l) * x_leading;
-      const double* T = panel + j + (j + l) * leading;
+      const double* T = triangle + j + l * leading;
       for (int i = 0; i < rows; i += kLanes) {
         Vector x = load(column + i);
         for (int q = l + 1; q < width; ++q) x -= load(X + i + (j + q) * x_leading) * spread(T[q]);
@@ -173,7 +180,8 @@ void invert(const FrontShape& shape, const double* panel, double* inverse, doubl
   double* X = workspace;
   double* scratch = X + static_cast<std::ptrdiff_t>(leading) * padded(shape.pivots);
   for (int j = 0; j < shape.pivots; ++j) {
-    for (int i = 0; i < rows; ++i) X[i + j * leading] = panel[first_below + i + j * leading];
+    const double* L = panel + shape.panel_column(j);
+    for (int i = 0; i < rows; ++i) X[i + j * leading] = L[first_below + i];
     for (int i = 0; i < padded(shape.pivots); ++i) X[rows + i + j * leading] = i == j ? 1 : 0;
   }
   // Its lower rows become T^-1.

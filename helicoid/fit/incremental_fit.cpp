@@ -10,7 +10,7 @@ namespace helicoid {
 
 std::uint32_t IncrementalFit::add_pose(const Pose2& start, bool is_landmark) {
   const auto node = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({start, std::cos(start.yaw), std::sin(start.yaw), {}, is_landmark, false, false});
+  nodes_.push_back({start, std::cos(start.yaw), std::sin(start.yaw), {}, is_landmark, false, false, false});
   delta_.insert(delta_.end(), kBlock, 0.0);
   index_.push_back(-1);
   tree_.add_node();
@@ -22,6 +22,7 @@ std::uint32_t IncrementalFit::add_relation(const GraphRelation& relation) {
   const auto id = static_cast<std::uint32_t>(relations_.size());
   relations_.push_back(relation);
   is_removed_.push_back(false);
+  looked_.push_back(0);
   for (const std::uint32_t node : {relation.a, relation.b}) {
     if (node == kWorld) continue;
     nodes_[node].relations.push_back(id);
@@ -68,15 +69,18 @@ void IncrementalFit::claim_around(std::uint32_t node) {
   }
 }
 
+void IncrementalFit::list_far(std::uint32_t node) {
+  if (!std::exchange(nodes_[node].is_far, true)) far_.push_back(node);
+}
+
 void IncrementalFit::relinearise(IncrementalStep& step) {
   std::vector<std::pair<double, std::uint32_t>> far;
-  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
-    const double* twist = delta_.data() + kBlock * static_cast<std::size_t>(node);
-    const double distance = std::max({std::abs(twist[0]) / options_.relinearise_move_beyond,
-                                      std::abs(twist[1]) / options_.relinearise_move_beyond,
-                                      std::abs(twist[2]) / options_.relinearise_turn_beyond});
-    if (distance > 1) far.emplace_back(-distance, node);
+  for (const std::uint32_t node : far_) {
+    const double off = distance(twist(node));
+    if (off > 1) far.emplace_back(-off, node);
+    nodes_[node].is_far = false;
   }
+  far_.clear();
   std::sort(far.begin(), far.end());
   double work = 0;
   for (const auto& [unused, node] : far) {
@@ -85,7 +89,10 @@ void IncrementalFit::relinearise(IncrementalStep& step) {
       const std::uint32_t other = relations_[r].a == node ? relations_[r].b : relations_[r].a;
       if (other != kWorld) more = std::max(more, tree_.work_to_claim(static_cast<std::int32_t>(other)));
     }
-    if (step.relinearised > 0 && work + more > options_.most_work) continue;
+    if (step.relinearised > 0 && work + more > options_.most_work) {
+      list_far(node);
+      continue;
+    }
     work += more;
     linearise_at(node, pose(node));
     claim_around(node);
@@ -104,11 +111,15 @@ RelativePose IncrementalFit::relative(const GraphRelation& r) const {
           a.cosine * b.cosine + a.sine * b.sine, a.cosine * b.sine - a.sine * b.cosine};
 }
 
-void IncrementalFit::add(const GraphRelation& r, LooseSystem& system) const {
-  const RelativePose T_a_b = relative(r);
+PairExpansion IncrementalFit::expansion(const GraphRelation& r, const RelativePose& T_a_b) const {
   PairExpansion pair = expand(r.measurement, T_a_b);
   soften(r, options_.loss, pair);
-  TieBlocks blocks = tie_blocks(pair, T_a_b);
+  return pair;
+}
+
+void IncrementalFit::add(const GraphRelation& r, LooseSystem& system) const {
+  const RelativePose T_a_b = relative(r);
+  TieBlocks blocks = tie_blocks(expansion(r, T_a_b), T_a_b);
   const bool has_a = r.a != kWorld;
   if (has_a && nodes_[r.a].is_landmark) drop_heading(blocks.aa, blocks.a), blocks.ab.row(2).setZero();
   if (nodes_[r.b].is_landmark) drop_heading(blocks.bb, blocks.b), blocks.ab.col(2).setZero();
@@ -151,8 +162,8 @@ LooseSystem IncrementalFit::linearise(std::vector<std::int32_t> nodes) {
 }
 
 Pose2 IncrementalFit::pose(std::uint32_t node) const {
-  const double* twist = delta_.data() + kBlock * static_cast<std::size_t>(node);
-  return nodes_[node].linearised_at * exponential({twist[0], twist[1], twist[2]});
+  const double* xi = delta_.data() + kBlock * static_cast<std::size_t>(node);
+  return nodes_[node].linearised_at * exponential({xi[0], xi[1], xi[2]});
 }
 
 std::vector<Pose2> IncrementalFit::poses() const {
@@ -162,7 +173,54 @@ std::vector<Pose2> IncrementalFit::poses() const {
   return all;
 }
 
+double IncrementalFit::distance(const Vector3d& twist) const {
+  return std::max({std::abs(twist[0]) / options_.relinearise_move_beyond,
+                   std::abs(twist[1]) / options_.relinearise_move_beyond,
+                   std::abs(twist[2]) / options_.relinearise_turn_beyond});
+}
+
+double IncrementalFit::cost_of(const GraphRelation& r) const {
+  const Pose2 T_a_b = r.a == kWorld ? pose(r.b) : pose(r.a).inverse() * pose(r.b);
+  return expansion(r, RelativePose::of(T_a_b)).cost;
+}
+
+/// Of all relations of these nodes.
+double IncrementalFit::cost_around(std::span<const SolutionChange> nodes) {
+  ++looks_;
+  double sum = 0;
+  for (const SolutionChange& change : nodes) {
+    for (const std::uint32_t r : nodes_[change.node].relations) {
+      if (std::exchange(looked_[r], looks_) != looks_) sum += cost_of(relations_[r]);
+    }
+  }
+  return sum;
+}
+
+/// Takes a step back that raises the cost of what it moved.
+bool IncrementalFit::take_back(std::vector<SolutionChange> changes) {
+  // What goes less far in one step, next to what is linearised anew, cannot lead astray. Not a number is a leap, too.
+  constexpr double kLeap = 30;
+  const auto leaps = [&](const SolutionChange& c) { return !(distance(twist(c.node) - c.before) < kLeap); };
+  if (std::none_of(changes.begin(), changes.end(), leaps)) return false;
+  const auto exchange = [&] {
+    for (SolutionChange& c : changes) twist(c.node).swap(c.before);
+  };
+  const double after = cost_around(changes);
+  exchange();
+  const double before = cost_around(changes);
+  if (!(after <= std::max(before + 0.5, (1 + options_.most_rise) * before))) return true;
+  exchange();
+  return false;
+}
+
 IncrementalStep IncrementalFit::update() {
+  IncrementalStep done = step();
+  if (done.solved_fully) solve_fully();
+  return done;
+}
+
+/// Says that the graph must be solved fully, and leaves that to others.
+IncrementalStep IncrementalFit::step() {
   IncrementalStep step;
   for (const std::uint32_t node : touched_) tree_.claim(static_cast<std::int32_t>(node));
   touched_.clear();
@@ -179,7 +237,12 @@ IncrementalStep IncrementalFit::update() {
   for (const std::int32_t node : system.nodes) {
     if (!tree_.holds(node)) loose_.push_back(node);
   }
-  step.moved = tree_.back_substitute(delta_, options_.propagate_beyond).size();
+  std::vector<SolutionChange> changes = tree_.back_substitute(delta_, options_.propagate_beyond);
+  step.moved = changes.size();
+  for (const SolutionChange& change : changes) {
+    if (distance(twist(change.node)) > 1) list_far(static_cast<std::uint32_t>(change.node));
+  }
+  step.solved_fully = take_back(std::move(changes));
   return step;
 }
 
@@ -201,20 +264,15 @@ FitResult IncrementalFit::solve_fully(const FitOptions& options) {
     linearise_at(node, result.poses[node]);
     tree_.claim(static_cast<std::int32_t>(node));
   }
-  update();
+  // What is left is the last step's worth; where even that leads up it is taken back.
+  step();
   return result;
 }
 
 double IncrementalFit::cost() const {
-  const std::vector<Pose2> at = poses();
   double sum = 0;
   for (std::size_t i = 0; i < relations_.size(); ++i) {
-    if (is_removed_[i]) continue;
-    const GraphRelation& r = relations_[i];
-    const Pose2 T_a_b = r.a == kWorld ? at[r.b] : at[r.a].inverse() * at[r.b];
-    PairExpansion pair = expand(r.measurement, RelativePose::of(T_a_b));
-    soften(r, options_.loss, pair);
-    sum += pair.cost;
+    if (!is_removed_[i]) sum += cost_of(relations_[i]);
   }
   return sum;
 }

@@ -37,6 +37,7 @@ std::vector<std::vector<GraphRelation>> walk_on_grid(std::uint64_t seed, std::ui
 struct Growing {
   IncrementalFit fitted;
   RelationGraph graph;  ///< the same for the batch fit
+  std::size_t full_solves = 0;
 
   void grow(const std::vector<GraphRelation>& step) {
     Pose2 start;
@@ -44,7 +45,9 @@ struct Growing {
     const std::uint32_t node = fitted.add_pose(start);
     if (node == 0) fitted.hold(0);
     for (const GraphRelation& r : step) fitted.add_relation(r), graph.relations.push_back(r);
-    EXPECT_TRUE(fitted.update().is_determined);
+    const IncrementalStep done = fitted.update();
+    EXPECT_TRUE(done.is_determined);
+    full_solves += done.solved_fully ? 1 : 0;
   }
   double batch_cost() {
     graph.poses = fitted.poses();
@@ -105,6 +108,31 @@ TEST(IncrementalFit, WhatNothingTiesDownWaitsUntilSomethingDoes) {
   EXPECT_NEAR(fitted.pose(1).x, 1, 1e-6);
 }
 
+TEST(IncrementalFit, AStepCostsTheSameHoweverLongTheWayBeforeIt) {
+  const auto last_steps = [](std::uint32_t poses) {
+    Random random(1);
+    IncrementalFit fitted;
+    fitted.hold(fitted.add_pose({}));
+    IncrementalStep most;
+    for (std::uint32_t i = 1; i < poses; ++i) {
+      const PosePose odometry = noisy({1, 0, 0.1}, random);
+      fitted.add_pose(fitted.pose(i - 1) * odometry.T_a_b);
+      fitted.add_relation({i - 1, i, odometry, false});
+      // It looks back ten poses: a short loop, each time.
+      if (i > 10) fitted.add_relation({i - 10, i, noisy(fitted.pose(i - 10).inverse() * fitted.pose(i), random), true});
+      const IncrementalStep step = fitted.update();
+      if (i + 50 < poses) continue;
+      most.eliminated = std::max(most.eliminated, step.eliminated);
+      most.moved = std::max(most.moved, step.moved);
+    }
+    return most;
+  };
+  const IncrementalStep few = last_steps(200);
+  const IncrementalStep many = last_steps(2000);
+  EXPECT_LE(many.eliminated, 2 * few.eliminated);
+  EXPECT_LE(many.moved, 2 * few.moved);
+}
+
 TEST(IncrementalFit, AFullSolveGoesOnWithTheSameGraph) {
   Growing growing;
   const auto steps = walk_on_grid(6, 300);
@@ -116,6 +144,49 @@ TEST(IncrementalFit, AFullSolveGoesOnWithTheSameGraph) {
   const FitResult full = growing.fitted.solve_fully();
   EXPECT_EQ(full.status, FitStatus::converged);
   EXPECT_NEAR(growing.fitted.cost(), full.final_cost, 1e-6 * full.final_cost);
+}
+
+TEST(IncrementalFit, AGoodStartNeverNeedsAFullSolve) {
+  Growing growing;
+  for (const auto& step : walk_on_grid(3, 1000)) growing.grow(step);
+  EXPECT_EQ(growing.full_solves, 0U);
+}
+
+// From far off a Gauss-Newton step overshoots: update takes it back and solves the whole graph with damping, unasked.
+TEST(IncrementalFit, NoStepRaisesTheCostHoweverBadTheStart) {
+  std::size_t full_solves = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Growing growing;
+    Random random(seed);
+    for (const auto& step : walk_on_grid(seed, 200)) {
+      growing.fitted.add_pose(random_pose(random, 5));
+      for (const GraphRelation& r : step) growing.fitted.add_relation(r), growing.graph.relations.push_back(r);
+    }
+    growing.fitted.hold(0);
+    for (int k = 0; k < 20; ++k) {
+      const double before = growing.fitted.cost();
+      full_solves += growing.fitted.update().solved_fully ? 1 : 0;
+      EXPECT_LE(growing.fitted.cost(), std::max(before + 0.5, 1.01 * before) * (1 + 1e-9)) << "seed " << seed;
+    }
+    EXPECT_LE(growing.fitted.cost(), 1.01 * growing.batch_cost()) << "seed " << seed;
+  }
+  EXPECT_GE(full_solves, 10U);
+}
+
+TEST(IncrementalFit, AfterAFullSolveThatItAskedForItselfItGoesOnWithTheSameTree) {
+  Growing growing;
+  const auto steps = walk_on_grid(9, 400);
+  for (std::size_t i = 0; i < 200; ++i) growing.grow(steps[i]);
+  // A wrong closure that turns the map over, and is taken back.
+  const std::uint32_t wrong =
+      growing.fitted.add_relation({0, 199, PosePose{{300, 300, 3}, Vector3d(1e6, 1e6, 1e6).asDiagonal()}, true});
+  bool solved_fully = false;
+  for (int k = 0; k < 5; ++k) solved_fully = growing.fitted.update().solved_fully || solved_fully;
+  EXPECT_TRUE(solved_fully);
+  growing.fitted.remove_relation(wrong);
+  for (int k = 0; k < 5; ++k) growing.fitted.update();
+  for (std::size_t i = 200; i < 400; ++i) growing.grow(steps[i]);
+  EXPECT_LE(growing.fitted.cost(), 1.01 * growing.batch_cost());
 }
 
 TEST(IncrementalFit, LandmarksPriorsAndRobustLossesEndAtTheBatchOptimum) {

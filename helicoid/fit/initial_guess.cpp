@@ -195,12 +195,18 @@ std::vector<Pose2> odometry_start(const RelationGraph& graph, const std::vector<
   return DeadReckoning(graph, is_placed).run();
 }
 
-std::vector<Pose2> chordal_start(const RelationGraph& whole) {
+std::vector<Pose2> reckon_from(const RelationGraph& graph, std::span<const std::uint32_t> held) {
+  std::vector<bool> is_held(graph.poses.size(), false);
+  for (const std::uint32_t node : held) is_held[node] = true;
+  return odometry_start(graph, is_held);
+}
+
+std::vector<Pose2> chordal_start(const RelationGraph& whole, std::span<const std::uint32_t> held) {
   RelationGraph graph = whole;
-  graph.poses = odometry_start(whole);
-  const std::vector<Pose2> reckoned = graph.poses;
+  graph.poses = reckon_from(whole, held);
+  std::vector<Pose2> reckoned = graph.poses;
   std::erase_if(graph.relations, [](const GraphRelation& r) { return !told_pose(r.measurement); });
-  const std::vector<std::uint32_t> gauge = default_gauge(graph);
+  const std::vector<std::uint32_t> gauge = gauge_with(graph, held);
   // Once headings are held, what is left is linear in the positions: one step solves it.
   graph.is_landmark.assign(graph.poses.size(), true);
   LinearSystem system(graph, gauge);

@@ -55,12 +55,13 @@ class JointInformation {
     const auto top = 3 * static_cast<int>(row);
     const auto left = 3 * static_cast<int>(column);
     const bool is_pivot = left < shape_.pivots;
-    const int below = is_pivot ? shape_.first_below() - shape_.pivots : -shape_.pivots;
-    const int leading = is_pivot ? shape_.leading() : padded(shape_.below);
-    double* corner = is_pivot ? panel_.data() + left * leading + top + (top < shape_.pivots ? 0 : below)
-                              : update_.data() + (left - shape_.pivots) * leading + top + below;
+    const int gap = top < shape_.pivots ? 0 : shape_.first_below() - shape_.pivots;
+    const int height = is_pivot ? shape_.leading() : padded(shape_.below);
+    const int first = is_pivot ? left : left - shape_.pivots;
+    double* corner = is_pivot ? panel_.data() + shape_.panel_column(first) + top + gap
+                              : update_.data() + shape_.update_column(first) + top - shape_.pivots;
     for (int c = 0; c < 3; ++c) {
-      for (int r = 0; r < 3; ++r) corner[c * leading + r] += block(r, c);
+      for (int r = 0; r < 3; ++r) corner[c * between_columns(height, first) + r] += block(r, c);
     }
   }
 

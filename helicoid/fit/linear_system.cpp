@@ -8,6 +8,9 @@ namespace helicoid {
 
 namespace {
 
+/// From so many poses on memory counts for more than a few per cent of time.
+constexpr std::size_t kManyPoses = 100000;
+
 Adjacency adjacency_of(const RelationGraph& graph) {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   pairs.reserve(graph.relations.size());
@@ -35,7 +38,6 @@ LinearSystem::LinearSystem(const RelationGraph& graph, std::span<const std::uint
   hold(fixed);
   tie_up();
   // The symbolic phase leaves small pieces behind that nothing large fits into.
-  constexpr std::size_t kManyPoses = 100000;
   if (graph.poses.size() > kManyPoses) release_free_memory();
 }
 
@@ -58,23 +60,26 @@ void LinearSystem::tie_up() {
     ties_.push_back(tie);
   }
   std::stable_sort(ties_.begin(), ties_.end(), [](const Tie& l, const Tie& r) { return l.block < r.block; });
+  if (graph_->poses.size() > kManyPoses) return;
   turned_.reserve(ties_.size());
   for (const Tie& tie : ties_) {
-    TurnedPosePose turned{};
-    if (const auto* m = std::get_if<PosePose>(&graph_->relations[tie.relation].measurement)) {
-      Matrix3d turn = Matrix3d::Identity();
-      turn.topLeftCorner<2, 2>() = m->T_a_b.rotation();
-      const Matrix3d I = turn * m->information * turn.transpose();
-      turned = {m->T_a_b.x, m->T_a_b.y, m->T_a_b.yaw, I(0, 0), I(1, 0), I(2, 0), I(1, 1), I(2, 1), I(2, 2)};
-    }
-    turned_.push_back(turned);
+    const auto* m = std::get_if<PosePose>(&graph_->relations[tie.relation].measurement);
+    turned_.push_back(m != nullptr ? turned(*m) : TurnedPosePose{});
   }
+}
+
+LinearSystem::TurnedPosePose LinearSystem::turned(const PosePose& m) {
+  Matrix3d turn = Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = m.T_a_b.rotation();
+  const Matrix3d I = turn * m.information * turn.transpose();
+  return {m.T_a_b.x, m.T_a_b.y, m.T_a_b.yaw, I(0, 0), I(1, 0), I(2, 0), I(1, 1), I(2, 1), I(2, 2)};
 }
 
 PairExpansion LinearSystem::expand_tie(std::size_t tie, const RelativePose& T_a_b) const {
   const Measurement& measurement = graph_->relations[ties_[tie].relation].measurement;
-  if (!std::holds_alternative<PosePose>(measurement)) return expand(measurement, T_a_b);
-  const TurnedPosePose& m = turned_[tie];
+  const auto* pose_pose = std::get_if<PosePose>(&measurement);
+  if (pose_pose == nullptr) return expand(measurement, T_a_b);
+  const TurnedPosePose m = turned_.empty() ? turned(*pose_pose) : turned_[tie];
   const Vector3d e(T_a_b.x - m.x, T_a_b.y - m.y, wrap_small(T_a_b.yaw - m.yaw));
   Matrix3d information;
   information << m.xx, m.yx, m.ax, m.yx, m.yy, m.ay, m.ax, m.ay, m.aa;

@@ -73,6 +73,7 @@ class LinearSystem {
     double xx, yx, ax, yy, ay, aa;  ///< the information's lower half, `a` the angle; zero of other relations
   };
   void tie_up();
+  [[nodiscard]] static TurnedPosePose turned(const PosePose& m);
   [[nodiscard]] PairExpansion expand_tie(std::size_t tie, const RelativePose& T_a_b) const;
   void add(const Tie& tie, const PairExpansion& pair, const RelativePose& T_a_b);
   [[nodiscard]] std::vector<Frame> frames(std::span<const Pose2> poses) const;
@@ -83,7 +84,7 @@ class LinearSystem {
   Supernodes supernodes_;
   BlockMatrix H_;
   std::vector<Tie> ties_;
-  std::vector<TurnedPosePose> turned_;  ///< of each tie
+  std::vector<TurnedPosePose> turned_;  ///< of each tie; empty where they are many: then turned each time
   std::vector<bool> is_fixed_;          ///< by place
   std::vector<bool> has_no_heading_;    ///< by place; empty if all have one
   std::vector<double> gradient_;

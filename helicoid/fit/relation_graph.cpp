@@ -1,5 +1,7 @@
 #include "helicoid/fit/relation_graph.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace helicoid {
@@ -45,29 +47,36 @@ std::vector<Component> find_components(const RelationGraph& graph) {
 }
 
 std::vector<std::uint32_t> default_gauge(const RelationGraph& graph) {
+  return gauge_with(graph, {});
+}
+
+std::vector<std::uint32_t> gauge_with(const RelationGraph& graph, std::span<const std::uint32_t> held) {
+  std::vector<bool> is_held(graph.poses.size(), false);
+  for (const std::uint32_t node : held) is_held[node] = true;
+  const auto is_pose = [&](std::uint32_t node) { return graph.is_landmark.empty() || !graph.is_landmark[node]; };
   std::vector<std::uint32_t> gauge;
   for (const Component& component : find_components(graph)) {
-    if (component.has_prior) continue;
-    std::uint32_t first = component.nodes.front();
-    if (!graph.is_landmark.empty()) {
-      for (const std::uint32_t node : component.nodes) {
-        if (!graph.is_landmark[node]) {
-          first = node;
-          break;
-        }
-      }
-    }
-    gauge.push_back(first);
+    const auto& nodes = component.nodes;
+    const std::size_t before = gauge.size();
+    std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(gauge), [&](auto node) { return is_held[node]; });
+    if (gauge.size() > before || component.has_prior) continue;
+    const auto first = std::find_if(nodes.begin(), nodes.end(), is_pose);
+    gauge.push_back(first != nodes.end() ? *first : nodes.front());
   }
   return gauge;
 }
 
-std::int64_t degrees_of_freedom(const RelationGraph& graph) {
+std::int64_t degrees_of_freedom(const RelationGraph& graph, std::span<const std::uint32_t> held) {
+  const auto unknowns = [&](std::size_t node) { return !graph.is_landmark.empty() && graph.is_landmark[node] ? 2 : 3; };
   std::int64_t degrees = 0;
   for (const GraphRelation& r : graph.relations) degrees += residuals_of(r.measurement);
-  for (std::size_t i = 0; i < graph.poses.size(); ++i)
-    degrees -= !graph.is_landmark.empty() && graph.is_landmark[i] ? 2 : 3;
-  return degrees + 3 * static_cast<std::int64_t>(default_gauge(graph).size());
+  for (std::size_t i = 0; i < graph.poses.size(); ++i) degrees -= unknowns(i);
+  for (const std::uint32_t node : held) degrees += unknowns(node);
+  return degrees;
+}
+
+std::int64_t degrees_of_freedom(const RelationGraph& graph) {
+  return degrees_of_freedom(graph, default_gauge(graph));
 }
 
 double least_cost(const RelationGraph& graph) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "helicoid/fit/measurement.hpp"
@@ -35,8 +36,12 @@ struct Component {
 
 /// The gauge: the first pose of every component that no prior ties to the world.
 [[nodiscard]] std::vector<std::uint32_t> default_gauge(const RelationGraph& graph);
+/// The same where these nodes are held anyway: those, and the first pose of every component that has none of them.
+[[nodiscard]] std::vector<std::uint32_t> gauge_with(const RelationGraph& graph, std::span<const std::uint32_t> held);
 
-/// Residuals less unknowns, the gauge not counted; correspondences count three residuals a pair.
+/// Residuals less unknowns, held nodes not counted; correspondences count three residuals a pair.
+[[nodiscard]] std::int64_t degrees_of_freedom(const RelationGraph& graph, std::span<const std::uint32_t> held);
+/// With the default gauge.
 [[nodiscard]] std::int64_t degrees_of_freedom(const RelationGraph& graph);
 
 /// What correspondences cost at their own best, chi^2 / 2: no contradiction between relations.
