@@ -97,6 +97,7 @@ void Mapper::State::join_what_is_determined(bool last) {
     const double began = thread_seconds();
     MapInProgress progress{map, editor, graph};
     join_islands(progress, closer, *join, options);
+    sighting_acted_on = true;
     for (RobotState& robot : robots) robot.stale = true;
     times.close_s += thread_seconds() - began;
   }
@@ -133,7 +134,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
     add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
   }
   relate_to_last(robot, id);
-  if (options.closures && options.look_alikes) look_for_loops(id, robot.local);
+  if (compares_places()) look_for_loops(id, robot.local);
   // Eq. 15.
   robot.pose = {id, Pose2{}};
   robot.covariance.setZero();
@@ -158,10 +159,8 @@ void Mapper::State::close_what_is_left() {
   MapInProgress progress{map, editor, graph};
   fit_islands(map, editor);
   progress.graph = information_graph(map);
-  if (options.look_alikes) {
-    close_loops_again(progress, closer, options);
-    join_on_evidence(progress, closer, options.join_on_evidence, options);
-  }
+  if (compares_places()) close_loops_again(progress, closer, options);
+  if (options.look_alikes) join_on_evidence(progress, closer, options.join_on_evidence, options);
   closer.follow_ways(map);
   tie_neighbours(progress, closer.along(), options);
   times.close_s += thread_seconds() - began;
