@@ -8,6 +8,7 @@ namespace helicoid {
 struct LoopCloserOptions {
   LookAlikeOptions look_alike;
   double search_spacing = 2;       ///< a robot looks for look-alikes this often along its way, metres
+  double spacing_again = 8;        ///< the same when all of its way is looked at once more
   double consistent = 11.345;      ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
   std::size_t memory = 60;         ///< entries back that may support a new one
   std::size_t least_agreeing = 3;  ///< hypotheses of different patches that must agree
@@ -33,8 +34,10 @@ class LoopCloser {
 
   /// Lets every patch be looked at once more, from the first on.
   void start_again(const Map& map);
-  /// True if the robot has gone on far enough since the last search for another one at this patch.
-  [[nodiscard]] bool is_due(const Map& map, PatchId b) const;
+  /// True if the robot has gone on far enough since the last search for one more at this patch.
+  [[nodiscard]] bool is_due_again(const Map& map, PatchId b) const;
+  /// The search of `observe`, whether it is due or not.
+  std::vector<std::size_t> look_about(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known);
 
   void record(Hypothesis entry) { ledger_.push_back(std::move(entry)); }
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
@@ -49,6 +52,7 @@ class LoopCloser {
                                  Hypothesis found);
   std::vector<std::size_t> find_support(const Map& map, const InformationGraph& graph,
                                         std::span<const BoundedPose> about_b, std::size_t entry) const;
+  [[nodiscard]] double way_since_search(const Map& map, PatchId b) const;
   [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, std::size_t least, double way) const;
   std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing);
 
