@@ -1,6 +1,7 @@
 #include "helicoid/mapping/close_loops.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/fit_islands.hpp"
@@ -35,6 +36,15 @@ bool has_unknown_ground(const Map& map, PatchId b, const LocalMap& known, std::s
   return false;
 }
 
+/// How far a patch moved at most, metres.
+double farthest_move(const Map& map, std::span<const Pose2> before) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    farthest = std::max(farthest, (map.poses()[i].translation() - before[i].translation()).norm());
+  }
+  return farthest;
+}
+
 }  // namespace
 
 void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
@@ -61,7 +71,7 @@ bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const L
 }
 
 void close_loops_again(MapInProgress& progress, LoopCloser& closer, const MapperOptions& options) {
-  constexpr int kPasses = 2;
+  constexpr int kPasses = 4;
   for (int pass = 0; pass < kPasses; ++pass) {
     closer.start_again(progress.map);
     std::vector<std::size_t> accepted;
@@ -70,11 +80,13 @@ void close_loops_again(MapInProgress& progress, LoopCloser& closer, const Mapper
       if (!closer.is_due_again(progress.map, b) || !has_untied_ground(progress.map, b, closer.along())) continue;
       const LocalMap known = find_local_map(progress.map, progress.graph, b, options);
       if (!has_unknown_ground(progress.map, b, known, closer.along())) continue;
-      const std::vector<std::size_t> now = closer.look_about(progress.map, progress.graph, b, known);
+      const std::vector<std::size_t> now = closer.observe_again(progress.map, progress.graph, b, known);
       accepted.insert(accepted.end(), now.begin(), now.end());
     }
     if (accepted.empty()) return;
+    const std::vector<Pose2> before(progress.map.poses().begin(), progress.map.poses().end());
     act_on(progress, closer, accepted, options);
+    if (farthest_move(progress.map, before) < options.reference_position) return;
   }
 }
 

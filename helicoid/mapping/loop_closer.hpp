@@ -7,12 +7,13 @@ namespace helicoid {
 
 struct LoopCloserOptions {
   LookAlikeOptions look_alike;
-  double search_spacing = 2;       ///< a robot looks for look-alikes this often along its way, metres
-  double spacing_again = 8;        ///< the same when all of its way is looked at once more
-  double consistent = 11.345;      ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
-  std::size_t memory = 60;         ///< entries back that may support a new one
-  std::size_t least_agreeing = 3;  ///< hypotheses of different patches that must agree
-  double least_way = 2;            ///< the robot's way over which they must extend, metres
+  double search_spacing = 2;         ///< a robot looks for look-alikes this often along its way, metres
+  double spacing_again = 8;          ///< the same when all of its way is looked at once more
+  std::size_t candidates_again = 1;  ///< places that a patch is then compared with
+  double consistent = 11.345;        ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
+  std::size_t memory = 60;           ///< entries back that may support a new one
+  std::size_t least_agreeing = 3;    ///< hypotheses of different patches that must agree
+  double least_way = 2;              ///< the robot's way over which they must extend, metres
   std::size_t least_agreeing_islands = 5;
   double least_way_islands = 8;
   double most_ambiguous = 0.9;  ///< one at least must be clearer than this
@@ -36,8 +37,9 @@ class LoopCloser {
   void start_again(const Map& map);
   /// True if the robot has gone on far enough since the last search for one more at this patch.
   [[nodiscard]] bool is_due_again(const Map& map, PatchId b) const;
-  /// The search of `observe`, whether it is due or not.
-  std::vector<std::size_t> look_about(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known);
+  /// The same search for one that is due again.
+  std::vector<std::size_t> observe_again(const Map& map, const InformationGraph& graph, PatchId b,
+                                         const LocalMap& known);
 
   void record(Hypothesis entry) { ledger_.push_back(std::move(entry)); }
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
@@ -47,6 +49,8 @@ class LoopCloser {
   void follow_ways(const Map& map);
 
  private:
+  std::vector<std::size_t> look_about(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known,
+                                      const LookAlikeOptions& options);
   /// Enters it; the places of it and of those that agree with it.
   std::vector<std::size_t> enter(const Map& map, const InformationGraph& graph, std::span<const BoundedPose> about_b,
                                  Hypothesis found);
