@@ -2,7 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <queue>
+#include <cmath>
+#include <functional>
 
 namespace helicoid {
 
@@ -68,42 +69,108 @@ void InformationGraph::accumulate(std::uint32_t from, std::uint32_t to, const Ma
   at->spread = at->covariance(0, 0) + at->covariance(1, 1) + kLever * kLever * at->covariance(2, 2);
 }
 
+namespace {
+
+/// The tree of shortest paths from the reference, all in the reference's frame.
+class BoundTree {
+ public:
+  BoundTree(const InformationGraph& graph, std::span<const Pose2> T_plane, std::uint32_t reference,
+            const BoundOptions& options)
+      : graph_(graph),
+        T_plane_(T_plane),
+        options_(options),
+        floor_(noise_floor(options.floor_position, options.floor_heading)),
+        p_reference_(T_plane[reference].translation()),
+        yaw_reference_(T_plane[reference].yaw),
+        R_reference_plane_(T_plane[reference].rotation().transpose()),
+        place_(graph.size(), kUnseen),
+        shortest_(graph.size(), HUGE_VAL) {
+    found_.push_back({reference, {}});
+    rotations_.emplace_back(Matrix2d::Identity());
+    place_[reference] = 0;
+    follow_edges({0, reference, reference, nullptr});
+  }
+
+  std::vector<BoundedPose> grow() && {
+    while (!heap_.empty() && found_.size() < options_.most) {
+      std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+      const Visit visit = heap_.back();
+      heap_.pop_back();
+      if (place_[visit.pose] == kUnseen && reach(visit)) follow_edges(visit);
+    }
+    for (std::size_t i = 1; i < found_.size(); ++i) {
+      found_[i].relative.covariance = with_noise_floor(found_[i].relative, floor_, floor_);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr std::int32_t kUnseen = -1;
+  static constexpr std::int32_t kTooUncertain = -2;
+
+  /// Takes the pose into the tree, if it is known well enough.
+  bool reach(const Visit& visit) {
+    const auto from = static_cast<std::size_t>(place_[visit.from]);
+    const Vector2d p = R_reference_plane_ * (T_plane_[visit.pose].translation() - p_reference_);
+    BoundedPose bounded{visit.pose, {{p.x(), p.y(), wrap_angle(T_plane_[visit.pose].yaw - yaw_reference_)}, {}}};
+    bounded.relative.covariance = covariance_beyond(found_[from], rotations_[from], p, visit.edge->covariance);
+    const ConfidenceInterval interval = confidence_interval(with_noise_floor(bounded.relative, floor_, floor_));
+    if (interval.position >= options_.position || interval.heading >= options_.heading) {
+      place_[visit.pose] = kTooUncertain;
+      return false;
+    }
+    place_[visit.pose] = static_cast<std::int32_t>(found_.size());
+    found_.push_back(bounded);
+    rotations_.push_back(bounded.relative.T_a_b.rotation());
+    return true;
+  }
+
+  /// As compound() has it: the error of `from` acts by the lever from there to p, the edge's in its own frame.
+  static Matrix3d covariance_beyond(const BoundedPose& from, const Matrix2d& R_reference_from, const Vector2d& p,
+                                    const Matrix3d& edge) {
+    Matrix3d result = from.relative.covariance;
+    const Vector2d off = p - from.relative.T_a_b.translation();
+    const Vector2d lever(-off.y(), off.x());
+    const Vector2d by_turn = result.topRightCorner<2, 1>() + 0.5 * result(2, 2) * lever;
+    result.topLeftCorner<2, 2>() += lever * by_turn.transpose() + by_turn * lever.transpose() +
+                                    R_reference_from * edge.topLeftCorner<2, 2>() * R_reference_from.transpose();
+    result.topRightCorner<2, 1>() += result(2, 2) * lever + R_reference_from * edge.topRightCorner<2, 1>();
+    result(2, 2) += edge(2, 2);
+    result(1, 0) = result(0, 1);
+    result.bottomLeftCorner<1, 2>() = result.topRightCorner<2, 1>().transpose();
+    return result;
+  }
+
+  void follow_edges(const Visit& visit) {
+    for (const InformationGraph::Edge& edge : graph_.edges(visit.pose)) {
+      const double length = visit.length + edge.spread;
+      if (place_[edge.to] != kUnseen || length >= shortest_[edge.to]) continue;
+      if ((T_plane_[edge.to].translation() - p_reference_).squaredNorm() > options_.radius * options_.radius) continue;
+      shortest_[edge.to] = length;
+      heap_.push_back({length, edge.to, visit.pose, &edge});
+      std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    }
+  }
+
+  const InformationGraph& graph_;
+  std::span<const Pose2> T_plane_;
+  const BoundOptions& options_;
+  Matrix3d floor_;
+  Vector2d p_reference_;
+  double yaw_reference_;
+  Matrix2d R_reference_plane_;
+  std::vector<BoundedPose> found_;
+  std::vector<Matrix2d> rotations_;  ///< by place in found_: of T_reference_pose
+  std::vector<std::int32_t> place_;  ///< by pose: in found_
+  std::vector<double> shortest_;     ///< by pose: of the paths to it seen so far
+  std::vector<Visit> heap_;
+};
+
+}  // namespace
+
 std::vector<BoundedPose> tree_bound(const InformationGraph& graph, std::span<const Pose2> T_plane,
                                     std::uint32_t reference, const BoundOptions& options) {
-  std::vector<BoundedPose> found;
-  std::vector<std::int32_t> place(graph.size(), -1);
-  std::priority_queue<Visit, std::vector<Visit>, std::greater<>> queue;
-  queue.push({0, reference, reference, nullptr});
-  const Matrix3d floor = noise_floor(options.floor_position, options.floor_heading);
-  const Pose2 T_reference_plane = T_plane[reference].inverse();
-  while (!queue.empty() && found.size() < options.most) {
-    const Visit visit = queue.top();
-    queue.pop();
-    if (place[visit.pose] != -1) continue;
-    BoundedPose bounded{visit.pose, {}};
-    if (visit.edge != nullptr) {
-      const Pose2 T_from_pose = T_plane[visit.from].inverse() * T_plane[visit.pose];
-      bounded.relative = compound(found[place[visit.from]].relative, {T_from_pose, visit.edge->covariance});
-      bounded.relative.T_a_b = T_reference_plane * T_plane[visit.pose];
-      const ConfidenceInterval interval = confidence_interval(with_noise_floor(bounded.relative, floor, floor));
-      if (interval.position >= options.position || interval.heading >= options.heading) {
-        place[visit.pose] = -2;
-        continue;
-      }
-    }
-    place[visit.pose] = static_cast<std::int32_t>(found.size());
-    found.push_back(bounded);
-    for (const InformationGraph::Edge& edge : graph.edges(visit.pose)) {
-      if (place[edge.to] != -1) continue;
-      const Vector2d offset = T_plane[edge.to].translation() - T_plane[reference].translation();
-      if (offset.squaredNorm() > options.radius * options.radius) continue;
-      queue.push({visit.length + edge.spread, edge.to, visit.pose, &edge});
-    }
-  }
-  for (BoundedPose& bounded : found) {
-    if (bounded.pose != reference) bounded.relative.covariance = with_noise_floor(bounded.relative, floor, floor);
-  }
-  return found;
+  return BoundTree(graph, T_plane, reference, options).grow();
 }
 
 namespace {

@@ -17,7 +17,8 @@ void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const s
 bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const LocalMap& known,
                  const MapperOptions& options);
 
-/// The same for all patches once more, now that more is known of each, until a pass changes nothing.
+/// The same for all patches once more, now that more is known of each, until a pass moves nothing by more than eq. 12
+/// allows.
 void close_loops_again(MapInProgress& progress, LoopCloser& closer, const MapperOptions& options);
 
 }  // namespace helicoid

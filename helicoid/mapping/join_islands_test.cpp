@@ -26,6 +26,9 @@ struct TwoDrives {
   [[nodiscard]] Mapper map(bool sighting, bool on_evidence = false) const {
     MapperOptions options;
     options.join_on_evidence = on_evidence;
+    return map(sighting, options);
+  }
+  [[nodiscard]] Mapper map(bool sighting, const MapperOptions& options) const {
     Mapper mapper(options);
     mapper.add_robot("first", {synthetic::lms200()});
     mapper.add_robot("second", {synthetic::lms200()});
@@ -78,6 +81,24 @@ TEST(Islands, OneSightingMakesOneOfTwoAndTheirWallsMeet) {
     worst = std::max(worst, (truth.inverse() * T).distance());
   }
   EXPECT_LT(worst, 0.10);
+}
+
+/// Entries of the ledger that compare two places of one robot.
+std::size_t comparisons_within_robots(const Mapper& mapper) {
+  const auto& ledger = mapper.ledger();
+  return static_cast<std::size_t>(std::count_if(ledger.begin(), ledger.end(), [&](const Hypothesis& h) {
+    return h.source == HypothesisSource::lookalike && mapper.map().patch(h.a).robot == mapper.map().patch(h.b).robot;
+  }));
+}
+
+TEST(Islands, WithoutLookAlikesNothingIsComparedUntilASightingSetsItOff) {
+  MapperOptions lazy;
+  lazy.look_alikes = false;
+  TwoDrives drives;
+  drives.first = synthetic::drive(3, 2, synthetic::round_the_ring(), synthetic::ring());
+  drives.second = synthetic::drive(3, 3, synthetic::round_the_ring(), synthetic::ring());
+  EXPECT_TRUE(drives.map(false, lazy).ledger().empty());
+  EXPECT_GT(comparisons_within_robots(drives.map(true, lazy)), 0U);
 }
 
 TEST(Islands, WhatTheyHaveInCommonJoinsThemIfItMay) {

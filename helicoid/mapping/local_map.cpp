@@ -126,16 +126,22 @@ LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId a
 }
 
 std::optional<std::size_t> choose_anchor(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot) {
+  // Where many laps left their patches, the very nearest is another one at every other step.
+  constexpr double kNearEnough = 0.5;
   constexpr double kMuchNearer = 0.8;
   constexpr double kNearer = 0.05;
+  const auto knows = [&](const LocalPatch& p) {
+    return is_ground(map.patch(p.patch), p.T_anchor_patch.inverse() * T_anchor_robot.translation());
+  };
+  if (!local.empty() && view_distance(local[0].T_anchor_patch, T_anchor_robot) < kNearEnough && knows(local[0]))
+    return 0;
   std::optional<std::size_t> nearest;
   double least = 0;
   for (std::size_t i = 0; i < local.size(); ++i) {
     double distance = view_distance(local[i].T_anchor_patch, T_anchor_robot);
     if (i == 0) distance = kMuchNearer * distance - kNearer;
     if (nearest && distance >= least) continue;
-    const Vector2d p_patch = local[i].T_anchor_patch.inverse() * T_anchor_robot.translation();
-    if (!is_ground(map.patch(local[i].patch), p_patch)) continue;
+    if (!knows(local[i])) continue;
     nearest = i;
     least = distance;
   }

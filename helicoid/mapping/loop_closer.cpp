@@ -49,21 +49,37 @@ void LoopCloser::start_again(const Map& map) {
   std::fill(searched_at_.begin(), searched_at_.end(), -HUGE_VAL);
 }
 
-bool LoopCloser::is_due(const Map& map, PatchId b) const {
-  return along_[b.index()] - searched_at_[map.patch(b).robot.index()] >= options_.search_spacing;
+double LoopCloser::way_since_search(const Map& map, PatchId b) const {
+  return along_[b.index()] - searched_at_[map.patch(b).robot.index()];
+}
+
+bool LoopCloser::is_due_again(const Map& map, PatchId b) const {
+  return way_since_search(map, b) >= options_.spacing_again;
 }
 
 std::vector<std::size_t> LoopCloser::observe(const Map& map, const InformationGraph& graph, PatchId b,
                                              const LocalMap& known) {
   follow_ways(map);
-  if (!is_due(map, b)) return {};
+  if (way_since_search(map, b) < options_.search_spacing) return {};
+  return look_about(map, graph, b, known, options_.look_alike);
+}
+
+std::vector<std::size_t> LoopCloser::observe_again(const Map& map, const InformationGraph& graph, PatchId b,
+                                                   const LocalMap& known) {
+  LookAlikeOptions nearest = options_.look_alike;
+  nearest.candidates = options_.candidates_again;
+  return look_about(map, graph, b, known, nearest);
+}
+
+std::vector<std::size_t> LoopCloser::look_about(const Map& map, const InformationGraph& graph, PatchId b,
+                                                const LocalMap& known, const LookAlikeOptions& options) {
   searched_at_[map.patch(b).robot.index()] = along_[b.index()];
   BoundOptions everything = bound_options(map.patch(b), 1e3, 1e3, 1e9);
   everything.most = map.patch_count();
   const std::vector<BoundedPose> about_b = tree_bound(graph, map.poses(), b.value, everything);
   std::vector<std::size_t> accepted;
-  for (const Candidate& candidate : find_candidates(map, graph, b, about_b, known, options_.look_alike)) {
-    std::optional<Hypothesis> found = compare_places(map, graph, candidate, b, mapper_, options_.look_alike);
+  for (const Candidate& candidate : find_candidates(map, graph, b, about_b, known, options)) {
+    std::optional<Hypothesis> found = compare_places(map, graph, candidate, b, mapper_, options);
     if (!found) continue;
     found->reason = kWaits;
     const std::vector<std::size_t> now =

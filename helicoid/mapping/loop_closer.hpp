@@ -7,11 +7,13 @@ namespace helicoid {
 
 struct LoopCloserOptions {
   LookAlikeOptions look_alike;
-  double search_spacing = 2;       ///< a robot looks for look-alikes this often along its way, metres
-  double consistent = 11.345;      ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
-  std::size_t memory = 60;         ///< entries back that may support a new one
-  std::size_t least_agreeing = 3;  ///< hypotheses of different patches that must agree
-  double least_way = 2;            ///< the robot's way over which they must extend, metres
+  double search_spacing = 2;         ///< a robot looks for look-alikes this often along its way, metres
+  double spacing_again = 8;          ///< the same when all of its way is looked at once more
+  std::size_t candidates_again = 1;  ///< places that a patch is then compared with
+  double consistent = 11.345;        ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
+  std::size_t memory = 60;           ///< entries back that may support a new one
+  std::size_t least_agreeing = 3;    ///< hypotheses of different patches that must agree
+  double least_way = 2;              ///< the robot's way over which they must extend, metres
   std::size_t least_agreeing_islands = 5;
   double least_way_islands = 8;
   double most_ambiguous = 0.9;  ///< one at least must be clearer than this
@@ -36,8 +38,11 @@ class LoopCloser {
 
   /// Lets every patch be looked at once more, from the first on.
   void start_again(const Map& map);
-  /// True if the robot has gone on far enough since the last search for another one at this patch.
-  [[nodiscard]] bool is_due(const Map& map, PatchId b) const;
+  /// True if the robot has gone on far enough since the last search for one more at this patch.
+  [[nodiscard]] bool is_due_again(const Map& map, PatchId b) const;
+  /// The same search for one that is due again.
+  std::vector<std::size_t> observe_again(const Map& map, const InformationGraph& graph, PatchId b,
+                                         const LocalMap& known);
 
   void record(Hypothesis entry) { ledger_.push_back(std::move(entry)); }
   /// Decides about an entry that was recorded.
@@ -49,6 +54,8 @@ class LoopCloser {
   void follow_ways(const Map& map);
 
  private:
+  std::vector<std::size_t> look_about(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known,
+                                      const LookAlikeOptions& options);
   /// How many entries of different patches must agree, and over what way of the robot, metres.
   struct Quorum {
     std::size_t agreeing;
@@ -63,6 +70,7 @@ class LoopCloser {
   bool follow_operator(const Map& map, std::size_t entry);
   void withhold_with(std::size_t entry, std::size_t decided);
   [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const;
+  [[nodiscard]] double way_since_search(const Map& map, PatchId b) const;
   std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing);
 
   MapperOptions mapper_;

@@ -15,6 +15,16 @@ constexpr int kMinCorrespondences = 40;
 /// Patches that are to be related lie this near, metres.
 constexpr double kReach = 3;
 
+/// True if some relation that is not odometry's leads to a patch of that kind.
+template <typename IsOfKind>
+bool is_matched_to_any(const Map& map, PatchId patch, const IsOfKind& is_of_kind) {
+  const std::span<const RelationId> relations = map.relations_of(patch);
+  return std::any_of(relations.begin(), relations.end(), [&](RelationId id) {
+    const Relation& r = map.relation(id);
+    return r.kind != RelationKind::odometry && is_of_kind(r.a == patch ? r.b : r.a);
+  });
+}
+
 }  // namespace
 
 void MapInProgress::add(const Relation& relation) {
@@ -23,16 +33,17 @@ void MapInProgress::add(const Relation& relation) {
             expand(relation.form, relation.T_a_b).information / information_divisor(map, relation));
 }
 
+bool is_same_stretch(const Map& map, PatchId p, PatchId q, std::span<const double> along) {
+  return map.patch(p).robot == map.patch(q).robot && std::abs(along[p.index()] - along[q.index()]) < kStretch;
+}
+
+bool are_matched(const Map& map, PatchId p, PatchId q) {
+  return is_matched_to_any(map, p, [q](PatchId other) { return other == q; });
+}
+
 bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along) {
-  const auto near = [&](PatchId other) {
-    return map.patch(other).robot == map.patch(q).robot && std::abs(along[other.index()] - along[q.index()]) < kStretch;
-  };
-  if (near(patch)) return true;
-  const std::span<const RelationId> relations = map.relations_of(patch);
-  return std::any_of(relations.begin(), relations.end(), [&](RelationId id) {
-    const Relation& r = map.relation(id);
-    return r.kind != RelationKind::odometry && near(r.a == patch ? r.b : r.a);
-  });
+  const auto near = [&](PatchId other) { return is_same_stretch(map, other, q, along); };
+  return near(patch) || is_matched_to_any(map, patch, near);
 }
 
 bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const double> along) {

@@ -17,8 +17,15 @@ struct MapInProgress {
   void add(const Relation& relation);
 };
 
+/// True if two patches were kept by one robot within a few metres of its way. `along`: how far along its robot's way
+/// each patch was kept, metres.
+[[nodiscard]] bool is_same_stretch(const Map& map, PatchId p, PatchId q, std::span<const double> along);
+
+/// True if a relation ties the two patches that is not odometry's.
+[[nodiscard]] bool are_matched(const Map& map, PatchId p, PatchId q);
+
 /// True if some relation of the patch already leads to q's stretch of way: one patch of a stretch is enough to relate
-/// to. `along`: how far along its robot's way each patch was kept, metres.
+/// to.
 [[nodiscard]] bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along);
 
 /// True if q lies about the patch, on the same island, and its stretch of way is not yet related to.

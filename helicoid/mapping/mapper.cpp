@@ -105,7 +105,9 @@ void Mapper::State::join_what_is_determined(bool last) {
   MapInProgress progress{map, editor, graph};
   bool changed = options.closures && reported.take_placed(progress, closer, last, options);
   if (sightings.place_waiting(map, graph, closer, options.decisions, last) || last) {
-    changed = join_on_sightings(progress, closer, sightings, last, options) || changed;
+    const bool joined = join_on_sightings(progress, closer, sightings, last, options);
+    sighting_acted_on = sighting_acted_on || joined;
+    changed = changed || joined;
   }
   if (changed) {
     for (RobotState& robot : robots) robot.stale = true;
@@ -144,7 +146,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
     add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
   }
   relate_to_last(robot, id);
-  if (options.closures && options.look_alikes) look_for_loops(id, robot.local);
+  if (compares_places()) look_for_loops(id, robot.local);
   // Eq. 15.
   robot.pose = {id, Pose2{}};
   robot.covariance.setZero();
@@ -169,10 +171,8 @@ void Mapper::State::close_what_is_left() {
   MapInProgress progress{map, editor, graph};
   fit_islands(map, editor);
   progress.graph = information_graph(map);
-  if (options.look_alikes) {
-    close_loops_again(progress, closer, options);
-    join_on_evidence(progress, closer, options.join_on_evidence, options);
-  }
+  if (compares_places()) close_loops_again(progress, closer, options);
+  if (options.look_alikes) join_on_evidence(progress, closer, options.join_on_evidence, options);
   closer.follow_ways(map);
   tie_neighbours(progress, closer.along(), options);
   times.close_s += thread_seconds() - began;

@@ -27,7 +27,7 @@ struct MapperOptions {
   double known_ground_factor = 1.4;
   /// The local map reaches this far and holds this many patches at most.
   double local_radius = 7;
-  std::size_t local_patches = 80;
+  std::size_t local_patches = 400;
   /// Patches fused into the reference, and patches that a new patch is related to.
   std::size_t reference_views = 6;
   std::size_t relation_views = 6;

@@ -24,6 +24,7 @@ struct Mapper::State {
   MapperCounts counts;
   MapperTimes times;
   std::size_t patches_at_last_fit = 0;
+  bool sighting_acted_on = false;
 
   Step step(const Event& event, const Scan& scan);
   Motion advance(RobotState& robot, const Event& event, const Scan& scan);
@@ -45,6 +46,8 @@ struct Mapper::State {
   void look_for_loops(PatchId id, const LocalMap& known);
   void close_what_is_left();
   void add_relation(const Relation& relation);
+  /// Loop closing is set off (IV-B).
+  bool compares_places() const { return options.closures && (options.look_alikes || sighting_acted_on); }
   void stand_on(RobotState& robot, const LocalPatch& ground);
   const LaserModel& laser_of(RobotId robot, const Scan& scan) const { return map.robot(robot).lasers[scan.laser]; }
 };
