@@ -50,6 +50,7 @@ void collect_skipped(MapRun& run, MergedLogs& logs) {
       static_cast<std::size_t>(std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) {
         return h.source == HypothesisSource::sighting && h.state == HypothesisState::open;
       })));
+  add("return of a robot that was seen; left out of the scan", counts.returns_of_robots);
   add("sighting of the robot itself", counts.self_sightings);
 }
 

@@ -48,6 +48,9 @@ std::vector<SightingOption> options_between(const Map& map, const LoopCloser& cl
   return options;
 }
 
+/// Two scans agree by chance to this share now and then; one nameless sighting alone must do better.
+constexpr double kBeyondChance = 0.75;
+
 /// True if the scans tell that it is this candidate and no other.
 bool is_told_apart(const SightingRecord& record, std::size_t candidate) {
   for (std::size_t k = 0; k < record.candidates.size(); ++k) {
@@ -55,6 +58,19 @@ bool is_told_apart(const SightingRecord& record, std::size_t candidate) {
     if ((verdict == Verdict::confirmed) != (k == candidate)) return false;
   }
   return true;
+}
+
+/// Of sightings that name nobody: the scans tell whom two are of that agree, or whom one is of beyond chance.
+bool is_told_apart(const SightingLog& log, const SightingConsensus& consensus) {
+  std::size_t told = 0;
+  double best = 0;
+  for (const SightingOption& o : consensus.members) {
+    const SightingRecord& record = log.placed()[o.record];
+    if (!is_told_apart(record, o.candidate)) continue;
+    ++told;
+    best = std::max(best, record.candidates[o.candidate].ground.share());
+  }
+  return told > 1 || best >= kBeyondChance;
 }
 
 /// What the scans say of a join as a whole: the places are those of its newest sighting.
@@ -73,10 +89,7 @@ bool may_join(const Map& map, const InformationGraph& graph, const LoopCloser& c
   if (ordered) return true;
   const auto identified = std::count_if(consensus.members.begin(), consensus.members.end(),
                                         [](const SightingOption& o) { return o.identified; });
-  const bool told_apart = std::any_of(consensus.members.begin(), consensus.members.end(), [&](const SightingOption& o) {
-    return is_told_apart(log.placed()[o.record], o.candidate);
-  });
-  if (identified == 0 && !told_apart) return false;
+  if (identified == 0 && !is_told_apart(log, consensus)) return false;
   switch (verdict_on(map, graph, consensus)) {
     case Verdict::confirmed: return true;
     case Verdict::contradicted: return false;

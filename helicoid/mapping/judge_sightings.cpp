@@ -9,6 +9,7 @@
 #include "helicoid/fit/relative_covariance.hpp"
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/sighting_fit.hpp"
+#include "helicoid/mapping/sighting_rivals.hpp"
 
 namespace helicoid {
 
@@ -119,10 +120,40 @@ void judge_sightings(const Map& map, LoopCloser& closer, const SightingLog& log)
   }
 }
 
+namespace {
+
+/// Why what was mapped later speaks against an accepted sighting; empty if it does not.
+struct Objections {
+  std::string by_scans, by_sightings;
+  double chi2 = 0;  ///< of the sighting beside the finished map, where the scans do not confirm it
+};
+Objections object_to(const Map& map, const InformationGraph& graph, ExactPoses& exact, const Ledger& ledger,
+                     const SightingLog& log, const SightingRecord& record, const SeenCandidate& of) {
+  Objections found;
+  const Pose2 T_map = map.project(record.observer_at.pose).inverse() * map.project(of.at.pose);
+  const SharedGround ground = compare_ground(map, graph, {record.observer_at.pose, of.observers_side},
+                                             {of.at.pose, of.observed_side}, {T_map, Matrix3d::Zero()});
+  if (ground.verdict == Verdict::contradicted) {
+    found.by_scans = fmt::format("what was mapped later contradicts it: {} points agree, {} lie deep in free space",
+                                 ground.agreeing, ground.against);
+  }
+  const SightingVotes votes = count_votes(map, ledger, log, of.observers_side, of.observed_side);
+  if (votes.for_other > votes.for_map) {
+    found.by_sightings = fmt::format("{} sightings agree with one another and not with it, {} agree with it",
+                                     votes.for_other, votes.for_map);
+  }
+  if (ground.verdict == Verdict::confirmed) return found;
+  const std::optional<Judged> judged = judge(map, exact, record, of);
+  if (judged && !judged->fit.agrees()) found.chi2 = judged->fit.chi2;
+  return found;
+}
+
+}  // namespace
+
 std::vector<Decision> find_regrets(const Map& map, const InformationGraph& graph, const LoopCloser& closer,
                                    const SightingLog& log) {
   ExactPoses exact(map);
-  std::vector<Decision> contradicted;
+  std::vector<Decision> regrets;
   std::optional<Decision> worst;
   double worst_chi2 = 0;
   for (const SightingRecord& record : log.placed()) {
@@ -130,27 +161,21 @@ std::vector<Decision> find_regrets(const Map& map, const InformationGraph& graph
     if (h.state != HypothesisState::accepted || h.decided_by != DecidedBy::sighting) continue;
     const SeenCandidate& of = *std::find_if(record.candidates.begin(), record.candidates.end(),
                                             [&](const SeenCandidate& c) { return c.robot == h.seen->identified; });
+    const Objections objections = object_to(map, graph, exact, closer.ledger(), log, record, of);
     Decision regret{HypothesisState::rejected, HypothesisSource::sighting, first_place(map, h),
                     second_place(map, h),      DecidedBy::evidence,        ""};
-    const Pose2 T_map = map.project(record.observer_at.pose).inverse() * map.project(of.at.pose);
-    const SharedGround ground = compare_ground(map, graph, {record.observer_at.pose, of.observers_side},
-                                               {of.at.pose, of.observed_side}, {T_map, Matrix3d::Zero()});
-    if (ground.verdict == Verdict::contradicted) {
-      regret.reason = fmt::format("what was mapped later contradicts it: {} points agree, {} lie deep in free space",
-                                  ground.agreeing, ground.against);
-      contradicted.push_back(std::move(regret));
-      continue;
+    if (!objections.by_scans.empty() || !objections.by_sightings.empty()) {
+      regret.reason = objections.by_scans.empty() ? objections.by_sightings : objections.by_scans;
+      regrets.push_back(std::move(regret));
+    } else if (objections.chi2 > worst_chi2) {
+      worst_chi2 = objections.chi2;
+      regret.reason = fmt::format("what was mapped later leads elsewhere: chi^2 {:.1f}", worst_chi2);
+      worst = std::move(regret);
     }
-    if (ground.verdict == Verdict::confirmed) continue;
-    const std::optional<Judged> found = judge(map, exact, record, of);
-    if (!found || found->fit.agrees() || found->fit.chi2 <= worst_chi2) continue;
-    worst_chi2 = found->fit.chi2;
-    regret.reason = fmt::format("what was mapped later leads elsewhere: chi^2 {:.1f}", worst_chi2);
-    worst = std::move(regret);
   }
-  // One that the scans contradict may be why another does not fit.
-  if (contradicted.empty() && worst) contradicted.push_back(std::move(*worst));
-  return contradicted;
+  // One that the scans or many sightings contradict may be why another does not fit.
+  if (regrets.empty() && worst) regrets.push_back(std::move(*worst));
+  return regrets;
 }
 
 }  // namespace helicoid

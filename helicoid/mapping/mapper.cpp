@@ -11,6 +11,7 @@
 #include "helicoid/mapping/mapper_state.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 #include "helicoid/mapping/relate.hpp"
+#include "helicoid/mapping/sighting_fit.hpp"
 #include "helicoid/mapping/tie_neighbours.hpp"
 
 namespace helicoid {
@@ -84,6 +85,9 @@ void Mapper::State::take(const Event& event, const Sighting& sighting) {
   }
   const std::optional<RobotId> observed = robot_named(sighting.observed);
   ++(observed ? counts.sightings : counts.unidentified_sightings);
+  if (is_usable(sighting)) {
+    robots[event.robot.index()].seen.see(robots[event.robot.index()].T_odom_robot, event.stamp, sighting);
+  }
   if (map.robots().size() > 1) sightings.add(event.robot, observed, event.stamp, sighting);
 }
 
@@ -205,7 +209,12 @@ RobotId Mapper::add_robot(const std::string& name, const std::vector<LaserModel>
 
 Step Mapper::process(const Event& event) {
   if (const auto* scan = std::get_if<Scan>(&event.body)) {
-    const Step step = state_->step(event, *scan);
+    RobotState& robot = state_->robots[event.robot.index()];
+    robot.T_odom_robot = scan->T_odom_robot;
+    const std::optional<ClearedScan> cleared =
+        robot.seen.clear(*scan, event.stamp, state_->laser_of(event.robot, *scan));
+    if (cleared) state_->counts.returns_of_robots += cleared->removed;
+    const Step step = state_->step(event, cleared ? cleared->scan : *scan);
     state_->join_what_is_determined(false);
     return step;
   }

@@ -43,7 +43,8 @@ struct MapperCounts {
   std::size_t lookalikes_of_nobody = 0;     ///< with an unknown robot, or one that was nowhere at that time
   std::size_t unidentified_sightings = 0;   ///< of "?" or of a name that no robot has
   std::size_t self_sightings = 0;
-  std::size_t coarse_searches = 0;  ///< restarts at a fan of headings
+  std::size_t returns_of_robots = 0;  ///< taken out of scans
+  std::size_t coarse_searches = 0;    ///< restarts at a fan of headings
 };
 
 /// CPU seconds of the thread, by what they were spent on.

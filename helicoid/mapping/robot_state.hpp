@@ -6,6 +6,7 @@
 #include "helicoid/align/reference.hpp"
 #include "helicoid/mapping/local_map.hpp"
 #include "helicoid/mapping/motion_prior.hpp"
+#include "helicoid/mapping/seen_robots.hpp"
 
 namespace helicoid {
 
@@ -13,7 +14,9 @@ namespace helicoid {
 struct RobotState {
   std::vector<ScanPointExtractor> extractors;  ///< one a laser
   MotionPrior motion;
-  ManifoldPose pose;  ///< rho_t; its patch is the anchor
+  Pose2 T_odom_robot;  ///< of the last scan
+  SeenRobots seen;     ///< by this robot
+  ManifoldPose pose;   ///< rho_t; its patch is the anchor
   /// Of pose.T_patch_robot, in the anchor's frame: what the matches have left open so far.
   Matrix3d covariance = Matrix3d::Zero();
   LocalMap local;                 ///< about the anchor

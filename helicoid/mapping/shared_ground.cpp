@@ -77,8 +77,8 @@ SharedGround compare_ground(const Map& map, const InformationGraph& graph, const
       ground.against += count_contradictions(map.patch(a.patch), map.patch(b.patch), fitted.T_a_b, options.deep);
     }
   }
-  if (ground.agreeing + ground.against >= options.least_said) {
-    ground.verdict = ground.share() >= options.least_agreeing ? Verdict::confirmed : Verdict::contradicted;
+  if (std::abs(ground.agreeing - ground.against) >= options.least_majority) {
+    ground.verdict = ground.agreeing > ground.against ? Verdict::confirmed : Verdict::contradicted;
   }
   return ground;
 }

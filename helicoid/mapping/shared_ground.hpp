@@ -26,9 +26,8 @@ struct SharedGroundOptions {
   double reach = 4;         ///< about either place, metres
   double most_apart = 8;    ///< two patches that are compared, metres
   std::size_t patches = 6;  ///< of either place at most, the nearest
-  int least_said = 200;     ///< less is no evidence
-  double least_agreeing = 0.5;
-  double deep = 0.35;  ///< metres
+  int least_majority = 50;  ///< points; less is no evidence
+  double deep = 0.35;       ///< metres
 };
 
 /// Compares the patches about p, as far as the map is sure of them there (eq. 12), with those about q; `T_p_q` relates
