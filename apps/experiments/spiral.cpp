@@ -166,7 +166,7 @@ Result<Outcome> close_every_lap(const std::string& world, std::uint64_t seed) {
   return Outcome{{{"sheets_count", static_cast<double>(most_sheets(map))},
                   {"patches_growth_percent", 100 * (patches.back() / patches[1] - 1)},
                   {"later_laps_cost_ratio", later / cpu_s.front()},
-                  {"related_percent", related_percent(map)},
+                  {"laps_related_percent", related_percent(map)},
                   {"walls_rms_m", walls_rms(*s)},
                   {"patches_count", patches.back()}},
                  {}};

@@ -50,6 +50,8 @@ std::vector<SightingOption> options_between(const Map& map, const LoopCloser& cl
 
 /// Two scans agree by chance to this share now and then; one nameless sighting alone must do better.
 constexpr double kBeyondChance = 0.75;
+/// Share of the points that agree.
+constexpr double kHardlyContradicted = 0.9;
 
 /// True if the scans tell that it is this candidate and no other.
 bool is_told_apart(const SightingRecord& record, std::size_t candidate) {
@@ -73,13 +75,21 @@ bool is_told_apart(const SightingLog& log, const SightingConsensus& consensus) {
   return told > 1 || best >= kBeyondChance;
 }
 
-/// What the scans say of a join as a whole: the places are those of its newest sighting.
-Verdict verdict_on(const Map& map, const InformationGraph& graph, const SightingConsensus& consensus) {
+/// What the scans say of a join as a whole, where the robots of its newest sighting stood.
+SharedGround ground_of(const Map& map, const InformationGraph& graph, const SightingConsensus& consensus) {
   const IslandJoin& join = consensus.join;
-  const std::vector<RobotId> of_a = robots_on(map, map.island_of(join.a));
-  const std::vector<RobotId> of_b = robots_on(map, map.island_of(join.b));
+  const PlacedSighting& newest = consensus.members.back().placed;
+  const bool forward = map.island_of(newest.observer.patch) == map.island_of(join.a);
   const UncertainPose2 T_a_b{join.T_a_b, join.information.inverse()};
-  return compare_ground(map, graph, {{join.a, Pose2{}}, of_a}, {{join.b, Pose2{}}, of_b}, T_a_b).verdict;
+  const auto from = [&](PatchId patch, const ManifoldPose& robot) {
+    return UncertainPose2{map.T_plane_patch(patch).inverse() * map.project(robot), Matrix3d::Zero()};
+  };
+  const UncertainPose2 T_observer_near = invert(from(forward ? join.a : join.b, newest.observer));
+  const UncertainPose2 T_far_observed = from(forward ? join.b : join.a, newest.observed);
+  const UncertainPose2 T = compound(compound(T_observer_near, forward ? T_a_b : invert(T_a_b)), T_far_observed);
+  const std::vector<RobotId> observers_side = robots_on(map, map.island_of(newest.observer.patch));
+  const std::vector<RobotId> observed_side = robots_on(map, map.island_of(newest.observed.patch));
+  return compare_ground(map, graph, {newest.observer, observers_side}, {newest.observed, observed_side}, T);
 }
 
 bool may_join(const Map& map, const InformationGraph& graph, const LoopCloser& closer, const SightingLog& log,
@@ -90,11 +100,11 @@ bool may_join(const Map& map, const InformationGraph& graph, const LoopCloser& c
   const auto identified = std::count_if(consensus.members.begin(), consensus.members.end(),
                                         [](const SightingOption& o) { return o.identified; });
   if (identified == 0 && !is_told_apart(log, consensus)) return false;
-  switch (verdict_on(map, graph, consensus)) {
-    case Verdict::confirmed: return true;
-    case Verdict::contradicted: return false;
-    case Verdict::silent: break;
-  }
+  const SharedGround ground = ground_of(map, graph, consensus);
+  if (ground.verdict == Verdict::confirmed) return true;
+  if (ground.verdict == Verdict::contradicted) return false;
+  // Little was said, but hardly anything against it: an identified sighting is acted on at once.
+  if (identified > 0 && ground.share() >= kHardlyContradicted) return true;
   // One robot's word and nobody's against it; or more of one mind than not.
   return last && identified > 0 && 2 * consensus.members.size() > options;
 }

@@ -56,23 +56,16 @@ Fitted fit_about(const Patch& a, const Patch& b, const Pose2& supposed, const Ma
   return fitted;
 }
 
-}  // namespace
-
-SharedGround compare_ground(const Map& map, const InformationGraph& graph, const Ground& p, const Ground& q,
-                            const UncertainPose2& T_p_q, const SharedGroundOptions& options) {
+/// What the patches about two places say of each other if these lie so.
+SharedGround compare_at(const Map& map, std::span<const NearPatch> about_p, std::span<const NearPatch> about_q,
+                        const Pose2& T_p_q, const Matrix3d& information, const SharedGroundOptions& options) {
   SharedGround ground;
-  const std::vector<NearPatch> about_p = patches_about(map, graph, p, options);
-  const std::vector<NearPatch> about_q = patches_about(map, graph, q, options);
-  // A floor, so that the surest statement may be off by what scans are off by; and what a turn moves at that reach.
-  Matrix3d covariance = T_p_q.covariance;
-  const double swing = std::pow(options.reach, 2) * covariance(2, 2);
-  covariance.diagonal() += Vector3d(0.05 * 0.05 + swing, 0.05 * 0.05 + swing, 0.02 * 0.02);
   for (const NearPatch& b : about_q) {
     for (const NearPatch& a : about_p) {
       if (a.patch == b.patch) continue;
-      const Pose2 supposed = a.T_place_patch.inverse() * T_p_q.T_a_b * b.T_place_patch;
+      const Pose2 supposed = a.T_place_patch.inverse() * T_p_q * b.T_place_patch;
       if (supposed.distance() > options.most_apart) continue;
-      const Fitted fitted = fit_about(map.patch(a.patch), map.patch(b.patch), supposed, covariance.inverse());
+      const Fitted fitted = fit_about(map.patch(a.patch), map.patch(b.patch), supposed, information);
       ground.agreeing += fitted.correspondences;
       ground.against += count_contradictions(map.patch(a.patch), map.patch(b.patch), fitted.T_a_b, options.deep);
     }
@@ -81,6 +74,28 @@ SharedGround compare_ground(const Map& map, const InformationGraph& graph, const
     ground.verdict = ground.agreeing > ground.against ? Verdict::confirmed : Verdict::contradicted;
   }
   return ground;
+}
+
+}  // namespace
+
+SharedGround compare_ground(const Map& map, const InformationGraph& graph, const Ground& p, const Ground& q,
+                            const UncertainPose2& T_p_q, const SharedGroundOptions& options) {
+  const std::vector<NearPatch> about_p = patches_about(map, graph, p, options);
+  const std::vector<NearPatch> about_q = patches_about(map, graph, q, options);
+  // A floor, so that the surest statement may be off by what scans are off by; and what a turn moves at that reach.
+  Matrix3d covariance = T_p_q.covariance;
+  const double turn = std::sqrt(covariance(2, 2));
+  const double swing = std::pow(options.reach * turn, 2);
+  covariance.diagonal() += Vector3d(0.05 * 0.05 + swing, 0.05 * 0.05 + swing, 0.02 * 0.02);
+  // What stands metres away is moved out of a match's reach by the heading's error alone: it is looked for.
+  SharedGround best;
+  for (const double sigmas : {0.0, 1.0, -1.0, 2.0, -2.0}) {
+    const Pose2 T = T_p_q.T_a_b * Pose2{0, 0, sigmas * turn};
+    const SharedGround ground = compare_at(map, about_p, about_q, T, covariance.inverse(), options);
+    if (sigmas == 0 || ground.agreeing - ground.against > best.agreeing - best.against) best = ground;
+    if (best.verdict == Verdict::confirmed || turn == 0) break;
+  }
+  return best;
 }
 
 std::vector<RobotId> robots_on(const Map& map, IslandId island) {

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kSameStamp = 2e-6;  ///< a trajectory's stamps are rounded, seconds
 constexpr double kStampShare = 0.3;  ///< of the way from scan to scan: what logged stamps are uncertain by
-constexpr double kGrown = 1.3;       ///< by how much the map has grown before the scans are asked again
 constexpr double kOpen = 1e3;        ///< standard deviation of what was not measured
 
 /// What a sighting says of the relative pose; what it does not say is as good as open.
@@ -30,7 +29,8 @@ UncertainPose2 as_pose(Sighting s) {
 
 /// What the scans say of its candidates on other islands, if it says all.
 void ask_scans(const Map& map, const InformationGraph& graph, SightingRecord& record) {
-  record.compared_at = map.patch_count();
+  record.ask_again_at = map.patch_count() + record.wait;
+  record.wait *= 2;
   const std::optional<UncertainPose2> T = is_usable(record.sighting) ? whole_pose(record.sighting) : std::nullopt;
   const IslandId here = map.island_of(record.observer_at.pose.patch);
   for (SeenCandidate& c : record.candidates) {
@@ -120,7 +120,7 @@ void SightingLog::add(RobotId observer, std::optional<RobotId> observed, double 
 std::optional<SightingRecord> SightingLog::place(const Map& map, const Waiting& w, bool last) {
   const std::optional<PlacedRobot> observer = place_at(map, w.observer, w.stamp, last);
   if (!observer) return std::nullopt;
-  SightingRecord record{w.observer, w.stamp, w.sighting, *observer, {}, 0, 0};
+  SightingRecord record{w.observer, w.stamp, w.sighting, *observer, {}, 0, 0, 1};
   for (std::size_t i = 0; i < map.robots().size(); ++i) {
     const RobotId robot = make_id<RobotId>(i);
     if (robot == w.observer || (w.observed && *w.observed != robot)) continue;
@@ -154,8 +154,7 @@ bool SightingLog::ask_again(const Map& map, const InformationGraph& graph, LoopC
   for (SightingRecord& record : placed_) {
     Hypothesis h = closer.ledger()[record.entry];
     if (h.state != HypothesisState::open || h.is_withheld() || !is_silent(map, record)) continue;
-    const double grown = static_cast<double>(map.patch_count()) / static_cast<double>(record.compared_at);
-    if (grown < kGrown && (!last || grown <= 1)) continue;
+    if (map.patch_count() < record.ask_again_at && !last) continue;
     ask_scans(map, graph, record);
     if (is_silent(map, record)) continue;
     fresh = true;

@@ -34,7 +34,8 @@ struct SightingRecord {
   PlacedRobot observer_at;                ///< valid once it is placed
   std::vector<SeenCandidate> candidates;  ///< one if it was identified
   std::size_t entry = 0;                  ///< in the ledger
-  std::size_t compared_at = 0;            ///< how many patches there were when it was compared with the scans last
+  std::size_t ask_again_at = 0;           ///< how many patches there will be when the scans are asked again
+  std::size_t wait = 1;                   ///< patches until then
 };
 
 class SightingLog {
