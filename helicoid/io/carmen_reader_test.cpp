@@ -11,7 +11,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 CarmenReader reader_of(const std::string& text) {
   return CarmenReader({{"robot2.log", text, {}}}, make_id<RobotId>(3));
