@@ -41,6 +41,9 @@ TEST(RecordedLogs, StampsThatStepBackAreNoImpossibleSteps) {
 }
 
 TEST(RecordedLogs, FiveRobotsWithoutLasersAreFoundFromUnknownStarts) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "15 minutes of five robots take minutes with sanitizers; TeamFit's simulated teams run the same code";
+#endif
   if (!is_mrclam_folder(kData + "mrclam6")) GTEST_SKIP() << "no recorded logs in " << kData;
   const Result<MrclamFolder> folder = read_mrclam(kData + "mrclam6");
   ASSERT_TRUE(folder) << folder.error().message;
