@@ -35,7 +35,9 @@ Result<Decision> decision_of(const Json& json, const std::string& path, std::siz
   const std::optional<RobotAtStamp> a = place_of(json, "a");
   const std::optional<RobotAtStamp> b = place_of(json, "b");
   if (!a || !b) return fail("{}: decision {} needs \"a\" and \"b\", each with \"robot\" and \"stamp\"", path, number);
-  return Decision{*state, *source, *a, *b};
+  const auto act = json.find("act");
+  return Decision{*state, *source, *a, *b,
+                  act != json.end() && act->is_number_unsigned() ? act->get<std::size_t>() : 0};
 }
 
 }  // namespace
@@ -64,7 +66,8 @@ std::string decisions_json(const std::vector<Decision>& decisions) {
     list.push_back({{"state", name_of(d.state)},
                     {"source", name_of(d.source)},
                     {"a", {{"robot", d.a.robot}, {"stamp", d.a.stamp}}},
-                    {"b", {{"robot", d.b.robot}, {"stamp", d.b.stamp}}}});
+                    {"b", {{"robot", d.b.robot}, {"stamp", d.b.stamp}}},
+                    {"act", d.act}});
   }
   return Json{{"format", "helicoid-decisions"}, {"decisions", list}}.dump(1) + "\n";
 }

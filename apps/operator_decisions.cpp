@@ -35,6 +35,20 @@ bool is_about(const Decision& decision, const RecordedEntry& entry) {
           (is_same(decision.a, entry.b) && is_same(decision.b, entry.a)));
 }
 
+/// Takes out the decisions about these entries, and those that were made in one act with them: without what was decided
+/// then, some of its entries may never have come up again.
+void take_back(std::vector<Decision>& decisions, const std::vector<RecordedEntry>& ledger,
+               const std::vector<std::size_t>& entries) {
+  std::vector<std::size_t> acts;
+  std::erase_if(decisions, [&](const Decision& d) {
+    const bool concerned =
+        std::any_of(entries.begin(), entries.end(), [&](std::size_t i) { return is_about(d, ledger[i]); });
+    if (concerned && d.act > 0) acts.push_back(d.act);
+    return concerned;
+  });
+  std::erase_if(decisions, [&](const Decision& d) { return std::find(acts.begin(), acts.end(), d.act) != acts.end(); });
+}
+
 Result<void> is_possible(const Hypothesis& h, LedgerAction action, std::size_t id) {
   const bool by_operator = h.decided_by == DecidedBy::operator_;
   if (action == LedgerAction::accept && h.state == HypothesisState::accepted) {
@@ -58,12 +72,12 @@ Result<OperatorDecisions> decide(const std::vector<RecordedEntry>& ledger, std::
   }
   const Hypothesis& h = ledger[id].hypothesis;
   if (auto possible = is_possible(h, action, id); !possible) return tl::unexpected(possible.error());
+  std::size_t act = 1;
+  for (const Decision& d : earlier) act = std::max(act, d.act + 1);
   OperatorDecisions result{std::move(earlier), decided_together(ledger, id)};
-  for (const std::size_t i : result.concerns) {
-    std::erase_if(result.decisions, [&](const Decision& d) { return is_about(d, ledger[i]); });
-  }
+  take_back(result.decisions, ledger, result.concerns);
   const auto say = [&](std::size_t i, HypothesisState state) {
-    result.decisions.push_back({state, ledger[i].hypothesis.source, ledger[i].a, ledger[i].b});
+    result.decisions.push_back({state, ledger[i].hypothesis.source, ledger[i].a, ledger[i].b, act});
   };
   if (action == LedgerAction::accept) {
     result.concerns = {id};

@@ -22,6 +22,7 @@ struct Decision {
   HypothesisState state = HypothesisState::open;
   HypothesisSource source = HypothesisSource::lookalike;
   RobotAtStamp a, b;
+  std::size_t act = 0;                  ///< decisions of one act are taken back together; 0: it stands alone
   DecidedBy by = DecidedBy::operator_;  ///< the evidence of an earlier pass, else
   std::string reason{};                 ///< in words; may be empty
 };

@@ -162,8 +162,13 @@ std::vector<Decision> find_regrets(const Map& map, const InformationGraph& graph
     const SeenCandidate& of = *std::find_if(record.candidates.begin(), record.candidates.end(),
                                             [&](const SeenCandidate& c) { return c.robot == h.seen->identified; });
     const Objections objections = object_to(map, graph, exact, closer.ledger(), log, record, of);
-    Decision regret{HypothesisState::rejected, HypothesisSource::sighting, first_place(map, h),
-                    second_place(map, h),      DecidedBy::evidence,        ""};
+    Decision regret{HypothesisState::rejected,
+                    HypothesisSource::sighting,
+                    first_place(map, h),
+                    second_place(map, h),
+                    0,
+                    DecidedBy::evidence,
+                    ""};
     if (!objections.by_scans.empty() || !objections.by_sightings.empty()) {
       regret.reason = objections.by_scans.empty() ? objections.by_sightings : objections.by_scans;
       regrets.push_back(std::move(regret));
