@@ -14,9 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string judge_beside(const std::string& program) {
-  return (fs::path(program).parent_path().parent_path() / "bench" / "ceres_judge").string();
-}
+constexpr const char* kCeres = "ceres_judge";
 
 /// Two files that nobody else uses, gone when this is.
 class Exchange {
@@ -40,15 +38,21 @@ class Exchange {
 
 }  // namespace
 
+std::string judge_beside(const std::string& program, const std::string& judge) {
+  return (fs::path(program).parent_path().parent_path() / "bench" / judge).string();
+}
+
 std::string missing_judge(const std::string& program) {
-  return fs::exists(judge_beside(program)) ? "" : "Ceres was not there when this was built (Debian: libceres-dev)";
+  return fs::exists(judge_beside(program, kCeres)) ? ""
+                                                   : "Ceres was not there when this was built (Debian: libceres-dev)";
 }
 
 Result<Judged> judge(const GraphFile& file, const std::string& program) {
   const Exchange exchange;
   if (auto done = write_whole_file(exchange.asked, to_graph_text(file, file.graph.poses)); !done)
     return tl::unexpected(done.error());
-  const std::string command = fmt::format("'{}' '{}' '{}'", judge_beside(program), exchange.asked, exchange.answered);
+  const std::string command =
+      fmt::format("'{}' '{}' '{}'", judge_beside(program, kCeres), exchange.asked, exchange.answered);
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return fail("the judge could not be started");
   Judged judged;

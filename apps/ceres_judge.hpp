@@ -15,6 +15,9 @@ struct Judged {
   std::vector<Pose2> poses;
 };
 
+/// A judge's program. Judges are built beside this program and not into it: what they link is under licences of its
+/// own.
+[[nodiscard]] std::string judge_beside(const std::string& program, const std::string& judge);
 /// Why there is no judge; empty: there is one. `program`: the path of this program.
 [[nodiscard]] std::string missing_judge(const std::string& program);
 /// Fits the graph from its poses. Error: the judge could not be run, or not read what it was given.

@@ -126,8 +126,8 @@ Result<Corruption> corrupt_logs(const std::vector<RobotLogs>& robots, const Corr
   }
   Random random(options.seed);
   std::vector<Told> lies;
+  const auto nameless = static_cast<std::size_t>(options.unidentified * static_cast<double>(options.false_sightings));
   for (std::size_t i = 0; i < options.false_sightings; ++i) {
-    const auto nameless = static_cast<std::size_t>(options.unidentified * static_cast<double>(options.false_sightings));
     lies.push_back(false_sighting(robots, logs, i >= nameless, random));
   }
   for (std::size_t i = 0; i < options.false_lookalikes; ++i) lies.push_back(false_lookalike(robots, logs, random));

@@ -50,9 +50,8 @@ std::string decided_by(const Hypothesis& h) {
 
 std::string comparison(const Hypothesis& h) {
   std::string text = fmt::format(
-      "Of what was seen about the later place {:.0f} % lies on surfaces of the earlier one, and {:.0f} % deep in what "
-      "had "
-      "been seen as free there.",
+      "Of what was seen about the later place {:.0f} % lies on surfaces of the earlier one, and {:.0f} % deep in "
+      "what had been seen as free there.",
       100 * h.score, 100 * h.contradicted);
   if (h.ambiguity <= 0) return text + " No other placement came near.";
   const char* verdict = h.ambiguity < 0.75  ? "it is clear which is right, if one is"
@@ -75,12 +74,6 @@ std::size_t ties_between(const Map& map, PatchId a, PatchId b) {
   }));
 }
 
-/// Patches as poses of a graph: those of one island by their place in it.
-std::uint32_t place_in(const Island& island, PatchId id) {
-  const auto at = std::lower_bound(island.patches.begin(), island.patches.end(), id);
-  return static_cast<std::uint32_t>(at - island.patches.begin());
-}
-
 Island island_with(const Map& map, PatchId id) {
   std::vector<Island> islands = map.islands();
   return *std::find_if(islands.begin(), islands.end(), [&](const Island& i) { return i.id == map.island_of(id); });
@@ -97,7 +90,7 @@ std::optional<ConfidenceInterval> known_by(const Map& map, const Island& island,
   }
   // What can be reached from a, numbered in that order.
   constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
-  std::vector<std::uint32_t> reached{place_in(island, a)};
+  std::vector<std::uint32_t> reached{island.place_of(a)};
   std::vector<std::uint32_t> number(island.patches.size(), kNowhere);
   number[reached[0]] = 0;
   std::vector<Pose2> poses;
@@ -109,7 +102,7 @@ std::optional<ConfidenceInterval> known_by(const Map& map, const Island& island,
       reached.push_back(next);
     }
   }
-  const std::uint32_t place_of_b = number[place_in(island, b)];
+  const std::uint32_t place_of_b = number[island.place_of(b)];
   if (place_of_b == kNowhere) return std::nullopt;
   std::vector<GraphEdge> reachable;
   for (GraphEdge e : edges) {

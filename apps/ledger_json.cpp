@@ -55,9 +55,6 @@ RobotAtStamp robot_of(const Json& place) {
 PatchId patch_of(const Json& place) {
   return make_id<PatchId>(place.at("patch").get<std::size_t>());
 }
-Vector2d point_of(const Json& place) {
-  return {place.at("xy").at(0).get<double>(), place.at("xy").at(1).get<double>()};
-}
 
 /// Throws what the JSON library throws where something is missing.
 RecordedEntry recorded_entry(const Json& json) {
@@ -84,8 +81,6 @@ RecordedEntry recorded_entry(const Json& json) {
   if (const Json& with = json.at("decided_with"); with.is_number()) h.decided_with = with.get<std::size_t>();
   entry.a = robot_of(json.at("a"));
   entry.b = robot_of(json.at("b"));
-  entry.a_plane = point_of(json.at("a"));
-  entry.b_plane = point_of(json.at("b"));
   return entry;
 }
 

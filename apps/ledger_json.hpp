@@ -18,8 +18,6 @@ namespace helicoid {
 struct RecordedEntry {
   Hypothesis hypothesis;
   RobotAtStamp a, b;
-  Vector2d a_plane{0, 0};  ///< where they stand in their islands' planes, metres
-  Vector2d b_plane{0, 0};
 };
 
 /// `name` is what messages call the text. Error: it is no ledger, or damaged.

@@ -26,23 +26,15 @@ std::vector<std::size_t> decided_together(const std::vector<RecordedEntry>& ledg
   return together;
 }
 
-bool is_about(const Decision& decision, const RecordedEntry& entry) {
-  const auto is_same = [](const RobotAtStamp& x, const RobotAtStamp& y) {
-    return x.robot == y.robot && x.stamp == y.stamp;
-  };
-  return decision.source == entry.hypothesis.source &&
-         ((is_same(decision.a, entry.a) && is_same(decision.b, entry.b)) ||
-          (is_same(decision.a, entry.b) && is_same(decision.b, entry.a)));
-}
-
 /// Takes out the decisions about these entries, and those that were made in one act with them: without what was decided
 /// then, some of its entries may never have come up again.
 void take_back(std::vector<Decision>& decisions, const std::vector<RecordedEntry>& ledger,
                const std::vector<std::size_t>& entries) {
   std::vector<std::size_t> acts;
   std::erase_if(decisions, [&](const Decision& d) {
-    const bool concerned =
-        std::any_of(entries.begin(), entries.end(), [&](std::size_t i) { return is_about(d, ledger[i]); });
+    const bool concerned = std::any_of(entries.begin(), entries.end(), [&](std::size_t i) {
+      return is_about(d, ledger[i].hypothesis.source, ledger[i].a, ledger[i].b);
+    });
     if (concerned && d.act > 0) acts.push_back(d.act);
     return concerned;
   });

@@ -21,11 +21,6 @@ namespace helicoid {
 
 namespace {
 
-/// The judges are programs of their own, built beside this one: what they link is under licences of its own.
-std::string judge_beside(const std::string& program, const char* judge) {
-  return (std::filesystem::path(program).parent_path().parent_path() / "bench" / judge).string();
-}
-
 /// What a judge printed of the same graph and start, run by run.
 Result<std::vector<std::vector<double>>> ask(const char* judge_name, const GraphFile& file,
                                              const BenchOptions& options) {

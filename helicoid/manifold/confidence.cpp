@@ -17,6 +17,13 @@ InformationGraph information_graph(const Map& map) {
   return graph;
 }
 
+std::vector<Pose2> island_poses(const Map& map, const Island& island) {
+  std::vector<Pose2> poses;
+  poses.reserve(island.patches.size());
+  for (const PatchId id : island.patches) poses.push_back(map.T_plane_patch(id));
+  return poses;
+}
+
 std::vector<GraphEdge> graph_edges(const Map& map, const Island& island) {
   std::vector<std::uint32_t> place(map.patch_count(), 0);
   for (std::size_t i = 0; i < island.patches.size(); ++i) {

@@ -14,6 +14,9 @@ namespace helicoid {
 /// The honest information of every related pair, at the map's poses; a pose's number is its patch's id.
 [[nodiscard]] InformationGraph information_graph(const Map& map);
 
+/// Where an island's patches lie in its plane, by their place in `island.patches`.
+[[nodiscard]] std::vector<Pose2> island_poses(const Map& map, const Island& island);
+
 /// An island's relations as the edges of a fit; poses are numbered by their place in `island.patches`.
 [[nodiscard]] std::vector<GraphEdge> graph_edges(const Map& map, const Island& island);
 

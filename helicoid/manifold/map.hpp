@@ -2,6 +2,8 @@
 // nothing. Reading is free; writing goes through MapEditor (map_editor.hpp), which only `mapping` and `store` use.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,6 +24,10 @@ struct RobotRecord {
 struct Island {
   IslandId id;
   std::vector<PatchId> patches;  ///< ascending; the first is the gauge
+  /// Where one of its patches stands among them: its number in graph_edges.
+  [[nodiscard]] std::uint32_t place_of(PatchId patch) const {
+    return static_cast<std::uint32_t>(std::lower_bound(patches.begin(), patches.end(), patch) - patches.begin());
+  }
 };
 
 class Map {

@@ -38,8 +38,7 @@ std::vector<PosePair> overlapping_pairs(const Map& map, const Island& island) {
 /// known that no single way leads to well enough, as after a loop is closed.
 std::vector<PosePair> keep_confident(const Map& map, const Island& island, std::span<const PosePair> pairs,
                                      const NeighbourOptions& options) {
-  std::vector<Pose2> poses;
-  for (const PatchId id : island.patches) poses.push_back(map.T_plane_patch(id));
+  const std::vector<Pose2> poses = island_poses(map, island);
   const std::vector<GraphEdge> edges = graph_edges(map, island);
   return confident_pairs(poses, RelativeCovariance(poses, edges), pairs, {options.position, options.heading});
 }

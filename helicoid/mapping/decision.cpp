@@ -31,13 +31,16 @@ RobotAtStamp second_place(const Map& map, const Hypothesis& h) {
   return place_of(map, h, false);
 }
 
+bool is_about(const Decision& d, HypothesisSource source, const RobotAtStamp& a, const RobotAtStamp& b) {
+  return d.source == source && ((is_same(d.a, a) && is_same(d.b, b)) || (is_same(d.a, b) && is_same(d.b, a)));
+}
+
 const Decision* find_decision(std::span<const Decision> decisions, const Map& map, const Hypothesis& h) {
   if (decisions.empty()) return nullptr;
   const RobotAtStamp a = first_place(map, h);
   const RobotAtStamp b = second_place(map, h);
-  const auto found = std::find_if(decisions.rbegin(), decisions.rend(), [&](const Decision& d) {
-    return d.source == h.source && ((is_same(d.a, a) && is_same(d.b, b)) || (is_same(d.a, b) && is_same(d.b, a)));
-  });
+  const auto found = std::find_if(decisions.rbegin(), decisions.rend(),
+                                  [&](const Decision& d) { return is_about(d, h.source, a, b); });
   return found == decisions.rend() ? nullptr : &*found;
 }
 

@@ -31,6 +31,10 @@ struct Decision {
 [[nodiscard]] RobotAtStamp first_place(const Map& map, const Hypothesis& h);
 [[nodiscard]] RobotAtStamp second_place(const Map& map, const Hypothesis& h);
 
+/// True if a decision is about the entry of this source and these places, whichever is named first.
+[[nodiscard]] bool is_about(const Decision& decision, HypothesisSource source, const RobotAtStamp& a,
+                            const RobotAtStamp& b);
+
 /// The decision about an entry, whichever of its places is named first; nullptr: there is none. The last one counts.
 [[nodiscard]] const Decision* find_decision(std::span<const Decision> decisions, const Map& map, const Hypothesis& h);
 

@@ -13,8 +13,7 @@ namespace helicoid {
 namespace {
 
 bool is_open(const LoopCloser& closer, const SightingRecord& record) {
-  const Hypothesis& h = closer.ledger()[record.entry];
-  return h.state == HypothesisState::open && !h.is_withheld();
+  return closer.ledger()[record.entry].is_undecided();
 }
 
 IslandId island_of(const Map& map, const ManifoldPose& pose) {
@@ -87,9 +86,7 @@ SharedGround ground_of(const Map& map, const InformationGraph& graph, const Sigh
   const UncertainPose2 T_observer_near = invert(from(forward ? join.a : join.b, newest.observer));
   const UncertainPose2 T_far_observed = from(forward ? join.b : join.a, newest.observed);
   const UncertainPose2 T = compound(compound(T_observer_near, forward ? T_a_b : invert(T_a_b)), T_far_observed);
-  const std::vector<RobotId> observers_side = robots_on(map, map.island_of(newest.observer.patch));
-  const std::vector<RobotId> observed_side = robots_on(map, map.island_of(newest.observed.patch));
-  return compare_ground(map, graph, {newest.observer, observers_side}, {newest.observed, observed_side}, T);
+  return compare_ground(map, graph, {newest.observer, {}}, {newest.observed, {}}, T);
 }
 
 bool may_join(const Map& map, const InformationGraph& graph, const LoopCloser& closer, const SightingLog& log,

@@ -32,7 +32,7 @@ class ExactPoses {
     if (!known.covariance) factorise(known);
     if (!known.covariance->is_determined()) return std::nullopt;
     UncertainPose2 T{map_.T_plane_patch(p.patch).inverse() * map_.T_plane_patch(q.patch), Matrix3d::Zero()};
-    if (p.patch != q.patch) T = known.covariance->of(place(known.island, p.patch), place(known.island, q.patch));
+    if (p.patch != q.patch) T = known.covariance->of(known.island.place_of(p.patch), known.island.place_of(q.patch));
     T = compound(compound(invert({p.T_patch_robot, robot_p.covariance}), T), {q.T_patch_robot, robot_q.covariance});
     const LaserModel& of_p = map_.patch(p.patch).laser;
     const LaserModel& of_q = map_.patch(q.patch).laser;
@@ -46,13 +46,8 @@ class ExactPoses {
     Island island;
     std::unique_ptr<RelativeCovariance> covariance;
   };
-  static std::uint32_t place(const Island& island, PatchId id) {
-    const auto at = std::lower_bound(island.patches.begin(), island.patches.end(), id);
-    return static_cast<std::uint32_t>(at - island.patches.begin());
-  }
   void factorise(Known& known) const {
-    std::vector<Pose2> poses;
-    for (const PatchId id : known.island.patches) poses.push_back(map_.T_plane_patch(id));
+    const std::vector<Pose2> poses = island_poses(map_, known.island);
     const std::vector<GraphEdge> edges = graph_edges(map_, known.island);
     known.covariance = std::make_unique<RelativeCovariance>(poses, edges);
   }
@@ -76,8 +71,7 @@ std::optional<Judged> judge(const Map& map, ExactPoses& exact, const SightingRec
 
 /// Open, or rejected by the scans of its time: with little mapped yet, people and doors weigh much.
 bool may_be_settled(const Hypothesis& h) {
-  if (h.state == HypothesisState::open) return !h.is_withheld();
-  return h.state == HypothesisState::rejected && h.decided_by == DecidedBy::evidence;
+  return h.is_undecided() || (h.state == HypothesisState::rejected && h.decided_by == DecidedBy::evidence);
 }
 
 void settle(const Map& map, LoopCloser& closer, ExactPoses& exact, const SightingRecord& record) {

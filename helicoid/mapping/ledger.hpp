@@ -48,6 +48,8 @@ struct Hypothesis {
   std::optional<SeenRobot> seen;  ///< of a sighting
   std::string reason;             ///< of the state, in words
 
+  /// Nobody has said anything about it yet.
+  [[nodiscard]] bool is_undecided() const { return state == HypothesisState::open && !is_withheld(); }
   /// An operator has said that it is not to be acted on.
   [[nodiscard]] bool is_withheld() const {
     return decided_by == DecidedBy::operator_ && state != HypothesisState::accepted;

@@ -118,8 +118,7 @@ bool LoopCloser::follow_operator(const Map& map, std::size_t entry) {
   }
   if (!h.is_withheld()) return true;
   for (const std::size_t i : h.supports) {
-    const Hypothesis& other = ledger_[i];
-    if (other.state == HypothesisState::open && !other.is_withheld()) withhold_with(i, entry);
+    if (ledger_[i].is_undecided()) withhold_with(i, entry);
   }
   return true;
 }

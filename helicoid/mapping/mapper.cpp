@@ -105,6 +105,8 @@ std::optional<RobotId> Mapper::State::robot_named(const std::string& name) const
 }
 
 void Mapper::State::join_what_is_determined(bool last) {
+  // Asking the clock alone would cost a few per cent of a scan.
+  if (sightings.empty() && reported.waiting() == 0) return;
   const double began = thread_seconds();
   MapInProgress progress{map, editor, graph};
   bool changed = options.closures && reported.take_placed(progress, closer, last, options);

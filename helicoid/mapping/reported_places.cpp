@@ -33,13 +33,6 @@ Hypothesis entry_of(const ManifoldPose& there, const ManifoldPose& here, const L
   return h;
 }
 
-SharedGround ask_scans(const Map& map, const InformationGraph& graph, const ManifoldPose& there,
-                       const ManifoldPose& here, const Lookalike& alike) {
-  const std::vector<RobotId> robots_there = robots_on(map, map.island_of(there.patch));
-  const std::vector<RobotId> robots_here = robots_on(map, map.island_of(here.patch));
-  return compare_ground(map, graph, {there, robots_there}, {here, robots_here}, reported(alike));
-}
-
 std::vector<std::size_t> enter(const MapInProgress& progress, LoopCloser& closer, Hypothesis h,
                                const SharedGround& ground, const MapperOptions& options) {
   if (ground.verdict == Verdict::confirmed) {
@@ -72,7 +65,8 @@ bool ReportedPlaces::take_placed(MapInProgress& progress, LoopCloser& closer, bo
     const std::optional<PlacedRobot> there = place_at(progress.map, w.there, w.alike.stamp, last);
     if (!here || !there) return false;
     if (here->pose.patch == there->pose.patch) return true;
-    const SharedGround ground = ask_scans(progress.map, progress.graph, there->pose, here->pose, w.alike);
+    const SharedGround ground =
+        compare_ground(progress.map, progress.graph, {there->pose, {}}, {here->pose, {}}, reported(w.alike));
     const std::vector<std::size_t> accepted =
         enter(progress, closer, entry_of(there->pose, here->pose, w.alike, ground), ground, options);
     if (accepted.empty()) return true;

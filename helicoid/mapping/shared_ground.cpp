@@ -24,7 +24,8 @@ std::vector<NearPatch> patches_about(const Map& map, const InformationGraph& gra
                                      const SharedGroundOptions& options) {
   std::vector<NearPatch> near;
   for (const LocalPatch& p : find_local_map(map, graph, ground.place.patch, MapperOptions{})) {
-    if (std::count(ground.robots.begin(), ground.robots.end(), map.patch(p.patch).robot) == 0) continue;
+    const RobotId robot = map.patch(p.patch).robot;
+    if (!ground.robots.empty() && std::count(ground.robots.begin(), ground.robots.end(), robot) == 0) continue;
     const Pose2 T_place_patch = ground.place.T_patch_robot.inverse() * p.T_anchor_patch;
     if (T_place_patch.distance() <= options.reach) near.push_back({p.patch, T_place_patch});
   }

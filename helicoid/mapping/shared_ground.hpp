@@ -15,8 +15,8 @@ struct SharedGround {
   [[nodiscard]] double share() const { return agreeing + against > 0 ? agreeing / double(agreeing + against) : 0; }
 };
 
-/// A place and the robots whose patches about it are asked: those of its island before it was joined to the other's, or
-/// one map would be found to agree with itself.
+/// A place and the robots whose patches about it are asked; none: all of its island. Once two islands are joined, those
+/// that were on one side, or the map would be found to agree with itself.
 struct Ground {
   ManifoldPose place;
   std::span<const RobotId> robots;

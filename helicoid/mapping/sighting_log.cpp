@@ -152,12 +152,12 @@ bool SightingLog::place_waiting(const Map& map, const InformationGraph& graph, L
 bool SightingLog::ask_again(const Map& map, const InformationGraph& graph, LoopCloser& closer, bool last) {
   bool fresh = false;
   for (SightingRecord& record : placed_) {
-    Hypothesis h = closer.ledger()[record.entry];
-    if (h.state != HypothesisState::open || h.is_withheld() || !is_silent(map, record)) continue;
     if (map.patch_count() < record.ask_again_at && !last) continue;
+    if (!closer.ledger()[record.entry].is_undecided() || !is_silent(map, record)) continue;
     ask_scans(map, graph, record);
     if (is_silent(map, record)) continue;
     fresh = true;
+    Hypothesis h = closer.ledger()[record.entry];
     reject_if_contradicted(record, h);
     closer.revise(record.entry, std::move(h));
   }

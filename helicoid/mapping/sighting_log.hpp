@@ -51,6 +51,8 @@ class SightingLog {
 
   /// Those that are placed, in the order in which they were.
   [[nodiscard]] std::span<const SightingRecord> placed() const { return placed_; }
+  /// True before the first sighting: nothing is to be done.
+  [[nodiscard]] bool empty() const { return waiting_.empty() && placed_.empty(); }
   /// Sightings of robots that were not placed yet.
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
 

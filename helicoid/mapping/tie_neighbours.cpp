@@ -30,8 +30,7 @@ std::vector<LocalMap> find_untied(const Map& map, const Island& island, std::spa
   std::vector<LocalMap> untied(island.patches.size());
   const std::vector<PosePair> pairs = untied_pairs(map, island, along);
   if (pairs.empty()) return untied;
-  std::vector<Pose2> poses;
-  for (const PatchId id : island.patches) poses.push_back(map.T_plane_patch(id));
+  const std::vector<Pose2> poses = island_poses(map, island);
   const std::vector<GraphEdge> edges = graph_edges(map, island);
   const PairLimits limits{options.reference_position, options.reference_heading};
   for (const auto& [a, b] : confident_pairs(poses, RelativeCovariance(poses, edges), pairs, limits)) {
