@@ -144,6 +144,32 @@ TEST(Loops, OneEntryIsEnoughForAnOperatorWhoAcceptsIt) {
   EXPECT_GT(closure_relations(replay.map()), 0U);
 }
 
+/// The same drive; as soon as an entry has come up the operator decides about it.
+Mapper map_and_decide(const Drive& d, HypothesisState state) {
+  Mapper mapper;
+  mapper.add_robot("robot1", {synthetic::lms200()});
+  bool decided = false;
+  for (const Event& event : d.events) {
+    mapper.process(event);
+    if (decided || mapper.ledger().empty()) continue;
+    mapper.decide(decision_about(mapper, mapper.ledger().front(), state));
+    decided = true;
+  }
+  return mapper;
+}
+
+TEST(Loops, ADecisionDuringTheRunIsActedOnAtOnce) {
+  const Mapper accepted = map_and_decide(rounds(), HypothesisState::accepted);
+  ASSERT_FALSE(accepted.ledger().empty());
+  EXPECT_EQ(accepted.ledger().front().state, HypothesisState::accepted);
+  EXPECT_EQ(accepted.ledger().front().decided_by, DecidedBy::operator_);
+  EXPECT_GT(closure_relations(accepted.map()), 0U);
+
+  const Mapper distinct = map_and_decide(rounds(), HypothesisState::distinct);
+  EXPECT_EQ(distinct.ledger().front().state, HypothesisState::distinct);
+  EXPECT_TRUE(distinct.ledger().front().is_withheld());
+}
+
 TEST(Loops, NoPairOfPatchesIsMatchedTwice) {
   const Mapper closed = map_drive(rounds(), true);
   std::set<std::pair<PatchId, PatchId>> pairs;

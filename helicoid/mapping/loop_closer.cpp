@@ -123,6 +123,18 @@ bool LoopCloser::follow_operator(const Map& map, std::size_t entry) {
   return true;
 }
 
+std::vector<std::size_t> LoopCloser::decide(const Map& map, const Decision& decision) {
+  mapper_.decisions.push_back(decision);
+  std::vector<std::size_t> accepted;
+  for (std::size_t i = 0; i < ledger_.size(); ++i) {
+    const Hypothesis& h = ledger_[i];
+    if (!h.is_undecided() || !is_about(decision, h.source, first_place(map, h), second_place(map, h))) continue;
+    follow_operator(map, i);
+    if (h.state == HypothesisState::accepted) accepted.push_back(i);
+  }
+  return accepted;
+}
+
 void LoopCloser::withhold_with(std::size_t entry, std::size_t decided) {
   const Hypothesis& other = ledger_[decided];
   Hypothesis& h = ledger_[entry];

@@ -44,6 +44,10 @@ class LoopCloser {
   std::vector<std::size_t> observe_again(const Map& map, const InformationGraph& graph, PatchId b,
                                          const LocalMap& known);
 
+  /// A decision that is made during the run: for entries to come and for those that nobody has decided yet. The entries
+  /// that it accepts.
+  std::vector<std::size_t> decide(const Map& map, const Decision& decision);
+
   void record(Hypothesis entry) { ledger_.push_back(std::move(entry)); }
   /// Decides about an entry that was recorded.
   void revise(std::size_t entry, Hypothesis now) { ledger_[entry] = std::move(now); }

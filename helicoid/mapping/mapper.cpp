@@ -225,6 +225,16 @@ Step Mapper::process(const Event& event) {
   return {};
 }
 
+void Mapper::decide(const Decision& decision) {
+  State& s = *state_;
+  s.options.decisions.push_back(decision);
+  MapInProgress progress{s.map, s.editor, s.graph};
+  const std::vector<std::size_t> accepted = s.closer.decide(s.map, decision);
+  if (accepted.empty()) return;
+  act_on_or_join(progress, s.closer, accepted, s.options);
+  for (RobotState& robot : s.robots) robot.stale = true;
+}
+
 void Mapper::finish() {
   State& s = *state_;
   s.join_what_is_determined(true);

@@ -65,6 +65,9 @@ class Mapper {
   RobotId add_robot(const std::string& name, const std::vector<LaserModel>& lasers);
   /// One incremental step. The scan's ranges are copied only if it is kept as a patch.
   Step process(const Event& event);
+  /// A decision that is made during the run: it holds from here on, for entries to come and for those that nobody has
+  /// decided yet. What was acted on stays: taking it back is a replay.
+  void decide(const Decision& decision);
   /// The last global fit, after the last event. Idempotent.
   void finish();
 
