@@ -34,24 +34,7 @@ void collect_skipped(MapRun& run, MergedLogs& logs) {
     for (const Skipped& s : robot.reader->skipped()) run.skipped.push_back(s);
     for (const std::string& w : robot.reader->warnings()) run.warnings.push_back(w);
   }
-  const MapperCounts& counts = run.mapper.counts();
-  const auto add = [&](const char* reason, std::size_t count) {
-    if (count > 0) run.skipped.push_back({reason, count, ""});
-  };
-  add("impossible odometry step; constant velocity used instead", counts.odometry_jumps);
-  add("scan without a return; placed by odometry", counts.empty_scans);
-  add("scan that matched nothing; placed by odometry", counts.predicted - counts.empty_scans);
-  add("scan without odometry; constant velocity used instead", counts.scans_without_odometry);
-  add("sighting of an unknown robot, kept as unidentified", counts.unidentified_sightings);
-  add("sighting of a robot that was nowhere at that time", counts.sightings_without_place);
-  add("look-alike with a robot that is unknown or was nowhere at that time", counts.lookalikes_of_nobody);
-  const Ledger& ledger = run.mapper.ledger();
-  add("sighting that is still open: see the ledger",
-      static_cast<std::size_t>(std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) {
-        return h.source == HypothesisSource::sighting && h.state == HypothesisState::open;
-      })));
-  add("return of a robot that was seen; left out of the scan", counts.returns_of_robots);
-  add("sighting of the robot itself", counts.self_sightings);
+  for (Skipped& s : skipped_by(run.mapper)) run.skipped.push_back(std::move(s));
 }
 
 /// Makes the logs' robots and their lasers known to the mapper.
@@ -126,6 +109,29 @@ double map_events(const MapJob& job, MergedLogs& logs, MapRun& run) {
 }
 
 }  // namespace
+
+std::vector<Skipped> skipped_by(const Mapper& mapper) {
+  std::vector<Skipped> skipped;
+  const MapperCounts& counts = mapper.counts();
+  const auto add = [&](const char* reason, std::size_t count) {
+    if (count > 0) skipped.push_back({reason, count, ""});
+  };
+  add("impossible odometry step; constant velocity used instead", counts.odometry_jumps);
+  add("scan without a return; placed by odometry", counts.empty_scans);
+  add("scan that matched nothing; placed by odometry", counts.predicted - counts.empty_scans);
+  add("scan without odometry; constant velocity used instead", counts.scans_without_odometry);
+  add("sighting of an unknown robot, kept as unidentified", counts.unidentified_sightings);
+  add("sighting of a robot that was nowhere at that time", counts.sightings_without_place);
+  add("look-alike with a robot that is unknown or was nowhere at that time", counts.lookalikes_of_nobody);
+  const Ledger& ledger = mapper.ledger();
+  add("sighting that is still open: see the ledger",
+      static_cast<std::size_t>(std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) {
+        return h.source == HypothesisSource::sighting && h.state == HypothesisState::open;
+      })));
+  add("return of a robot that was seen; left out of the scan", counts.returns_of_robots);
+  add("sighting of the robot itself", counts.self_sightings);
+  return skipped;
+}
 
 double thread_cpu_seconds() {
   timespec now{};

@@ -50,6 +50,9 @@ struct MapRun {
 /// reading; what was mapped until then is kept.
 [[nodiscard]] Result<MapRun> run_map(const MapJob& job);
 
+/// What the mapper survived or left out, in words.
+[[nodiscard]] std::vector<Skipped> skipped_by(const Mapper& mapper);
+
 /// CPU seconds of this thread so far.
 [[nodiscard]] double thread_cpu_seconds();
 
