@@ -1,27 +1,22 @@
 // helicoid simulate: logs of robots in a world that is known, with the truth beside them.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <filesystem>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/output_folder.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/simulated_recording.hpp"
 #include "apps/simulated_run.hpp"
 #include "apps/verb.hpp"
-#include "apps/world_picture.hpp"
 #include "helicoid/base/whole_file.hpp"
-#include "helicoid/io/carmen_writer.hpp"
-#include "helicoid/io/gzip_file.hpp"
 #include "helicoid/io/relations_file.hpp"
-#include "helicoid/io/trajectory.hpp"
 #include "helicoid/simulation/tour.hpp"
 
 namespace helicoid {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct SimulateArguments {
@@ -37,61 +32,28 @@ struct SimulateArguments {
   bool json = false;
 };
 
-/// What the robots reported and where they truly were.
 struct Recording {
-  std::vector<std::string> logs;
-  std::vector<TrueTrack> tracks;
-  std::size_t scans = 0, odometry = 0, sightings = 0;
-  double seconds = 0;
-  double metres = 0;
+  SimulatedRecording robots;
   double closest_approach = 0;  ///< of two robots, metres
 };
 
-void note(Recording& recording, const SimulatedEvent& simulated) {
-  const std::size_t robot = simulated.event.robot.index();
-  append_carmen(recording.logs[robot], simulated.event, "simulation");
-  recording.seconds = std::max(recording.seconds, simulated.event.stamp);
-  if (std::holds_alternative<Sighting>(simulated.event.body)) ++recording.sightings;
-  if (std::holds_alternative<Odometry>(simulated.event.body)) ++recording.odometry;
-  if (!std::holds_alternative<Scan>(simulated.event.body)) return;
-  ++recording.scans;
-  TrueTrack& track = recording.tracks[robot];
-  if (!track.stamps.empty()) {
-    recording.metres += (track.T_world_robot.back().inverse() * simulated.T_world_robot).distance();
-  }
-  track.stamps.push_back(simulated.event.stamp);
-  track.T_world_robot.push_back(simulated.T_world_robot);
-}
-
 Recording record(Simulator& simulator, const SimulateArguments& a) {
-  const auto robots = static_cast<std::size_t>(a.simulation.robots);
-  Recording recording;
-  recording.logs.assign(robots, "# a log of `helicoid simulate`\n");
-  for (std::size_t i = 0; i < robots; ++i) recording.tracks.push_back({simulated_robot_name(i), {}, {}});
+  Recording recording{{static_cast<std::size_t>(a.simulation.robots), "simulate"}, 0};
   ProgressBar bar;
-  double first = 0;
   while (const std::optional<SimulatedEvent> event = simulator.next()) {
-    if (recording.scans + recording.odometry == 0) first = event->event.stamp;
-    note(recording, *event);
-    if (recording.scans % 64 == 0) bar.show(simulator.progress(), "simulating");
+    recording.robots.note(event->event, event->T_world_robot);
+    if (recording.robots.scans() % 64 == 0) bar.show(simulator.progress(), "simulating");
   }
-  recording.seconds -= first;
   recording.closest_approach = simulator.closest_approach();
   return recording;
 }
 
-std::vector<TrueRelation> relations_of(const Recording& recording, std::uint64_t seed) {
+std::vector<TrueRelation> relations_of(const SimulatedRecording& recording, std::uint64_t seed) {
   std::vector<TrueRelation> relations;
-  for (const EvaluatedRelation& r : true_relations(recording.tracks, seed)) {
+  for (const EvaluatedRelation& r : true_relations(recording.tracks(), seed)) {
     relations.push_back({r.robot_a, r.stamp_a, r.robot_b, r.stamp_b, r.T_a_b});
   }
   return relations;
-}
-
-std::string true_trajectory(const TrueTrack& track) {
-  std::vector<StampedPose> poses;
-  for (std::size_t i = 0; i < track.stamps.size(); ++i) poses.push_back({track.stamps[i], track.T_world_robot[i]});
-  return to_tum(poses);
 }
 
 /// What was asked for and what came of it.
@@ -113,37 +75,24 @@ Json to_json(const SimulateArguments& a, const Recording& recording, std::size_t
             {"sightings", s.sightings},
             {"sighting_range_m", s.sighting_range},
             {"sighting_view_deg", degrees(s.sighting_view)}}},
-          {"scans", recording.scans},
-          {"odometry", recording.odometry},
-          {"sightings", recording.sightings},
-          {"seconds", std::round(1000 * recording.seconds) / 1000},
-          {"metres", std::round(100 * recording.metres) / 100},
+          {"scans", recording.robots.scans()},
+          {"odometry", recording.robots.odometry()},
+          {"sightings", recording.robots.sightings()},
+          {"seconds", std::round(1000 * recording.robots.seconds()) / 1000},
+          {"metres", std::round(100 * recording.robots.metres()) / 100},
           {"closest_approach_m", s.robots > 1 ? Json(std::round(1000 * recording.closest_approach) / 1000) : Json()},
           {"relations", relations}};
 }
 
 Result<Json> write_recording(const World& world, const Recording& recording, const SimulateArguments& a) {
-  std::error_code error;
-  fs::create_directories(fs::path(a.out) / "truth", error);
-  const std::string base = a.out + "/";
-  for (std::size_t i = 0; i < recording.logs.size(); ++i) {
-    const std::string& robot = recording.tracks[i].robot;
-    if (auto done = write_gzip_file(base + robot + ".clf.gz", recording.logs[i]); !done)
-      return tl::unexpected(done.error());
-    const std::string truth = true_trajectory(recording.tracks[i]);
-    if (auto done = write_whole_file(base + "truth/" + robot + ".tum", truth); !done)
-      return tl::unexpected(done.error());
-  }
-  const std::vector<TrueRelation> relations = relations_of(recording, a.simulation.seed);
+  if (auto done = recording.robots.write(world, a.out); !done) return tl::unexpected(done.error());
+  const std::vector<TrueRelation> relations = relations_of(recording.robots, a.simulation.seed);
   const Json summary = to_json(a, recording, relations.size());
-  const std::pair<const char*, std::string> files[] = {
-      {"truth.relations",
-       recording.logs.size() > 1 ? to_relations_text(relations) : to_single_robot_relations_text(relations)},
-      {"world.yaml", to_yaml(world)},
-      {"world.svg", draw_world(world, recording.tracks)},
-      {"simulation.json", summary.dump(1) + "\n"}};
-  for (const auto& [name, text] : files) {
-    if (auto done = write_whole_file(base + name, text); !done) return tl::unexpected(done.error());
+  const std::string text =
+      recording.robots.tracks().size() > 1 ? to_relations_text(relations) : to_single_robot_relations_text(relations);
+  if (auto done = write_whole_file(a.out + "/truth.relations", text); !done) return tl::unexpected(done.error());
+  if (auto done = write_whole_file(a.out + "/simulation.json", summary.dump(1) + "\n"); !done) {
+    return tl::unexpected(done.error());
   }
   return summary;
 }
@@ -158,20 +107,14 @@ Result<World> load_drivable_world(const std::string& name) {
   return world;
 }
 
-/// Logs of an earlier simulation with more robots.
-void remove_further_logs(const SimulateArguments& a) {
-  std::error_code error;
-  for (auto i = static_cast<std::size_t>(a.simulation.robots);; ++i) {
-    if (!fs::remove(fs::path(a.out) / (simulated_robot_name(i) + ".clf.gz"), error)) return;
-  }
-}
-
-void print_report(const World& world, const Recording& recording, const Json& summary, const std::string& out) {
+void print_report(const World& world, const SimulatedRecording& recording, const Json& summary,
+                  const std::string& out) {
   fmt::print("world      {}: {} walls, {} routes\n", world.name, world.walls.size(), world.routes.size());
-  fmt::print("drive      {} robots, {:.0f} m, {:.0f} s\n", recording.logs.size(), recording.metres, recording.seconds);
-  fmt::print("events     {} scans, {} odometry, {} sightings\n", recording.scans, recording.odometry,
-             recording.sightings);
-  for (const TrueTrack& track : recording.tracks) fmt::print("log        {}/{}.clf.gz\n", out, track.robot);
+  fmt::print("drive      {} robots, {:.0f} m, {:.0f} s\n", recording.tracks().size(), recording.metres(),
+             recording.seconds());
+  fmt::print("events     {} scans, {} odometry, {} sightings\n", recording.scans(), recording.odometry(),
+             recording.sightings());
+  for (const TrueTrack& track : recording.tracks()) fmt::print("log        {}/{}.clf.gz\n", out, track.robot);
   fmt::print("truth      {0}/truth, {0}/truth.relations ({1})\npicture    {0}/world.svg\n", out,
              summary["relations"].get<std::size_t>());
 }
@@ -192,11 +135,10 @@ int run_verb(SimulateArguments a) {
   const Recording recording = record(*simulator, a);
   const Result<Json> summary = write_recording(*world, recording, a);
   if (!summary) return report_failure(summary.error().message);
-  remove_further_logs(a);
   if (a.json) {
     fmt::print("{}\n", summary->dump(1));
   } else {
-    print_report(*world, recording, *summary, a.out);
+    print_report(*world, recording.robots, *summary, a.out);
   }
   return kDone;
 }
