@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace helicoid {
 
@@ -53,9 +54,23 @@ LaserModel simulated_lms200() {
   return laser;
 }
 
+std::vector<double> draw_materials(std::size_t segments, const LaserNoise& noise, Random random) {
+  std::vector<double> materials(segments);
+  for (double& bias : materials) bias = noise.material_sigma * random.normal();
+  return materials;
+}
+
+LaserBias draw_laser_bias(const LaserNoise& noise, std::vector<double> materials, Random& random) {
+  return {noise.range_bias_sigma * random.normal(), noise.bearing_scale_sigma * random.normal(), std::move(materials)};
+}
+
 std::vector<float> simulate_ranges(const RayCaster& walls, std::span<const Disc> discs, const LaserModel& laser,
-                                   const Pose2& T_world_laser, const Vector3d& twist, const LaserNoise& noise,
+                                   const Pose2& T_world_named, const Vector3d& twist, const LaserNoise& noise,
                                    const LaserBias& bias, Random& random) {
+  Pose2 T_world_laser = T_world_named;
+  if (noise.timing_sigma > 0) {
+    T_world_laser = T_world_laser * exponential(noise.timing_sigma * random.normal() * twist);
+  }
   std::vector<float> ranges;
   ranges.reserve(static_cast<std::size_t>(laser.beams));
   double previous = 0;

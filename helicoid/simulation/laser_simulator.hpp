@@ -28,8 +28,12 @@ struct LaserBias {
   std::vector<double> by_surface;  ///< added to ranges to the walls' segments, in their order; empty: nothing; metres
 };
 
+/// By segment of the walls, how much too far it seems: dark surfaces and bright ones.
+[[nodiscard]] std::vector<double> draw_materials(std::size_t segments, const LaserNoise& noise, Random random);
+[[nodiscard]] LaserBias draw_laser_bias(const LaserNoise& noise, std::vector<double> materials, Random& random);
+
 /// The ranges of one sweep while the laser passes T_world_laser with this twist (metres and radians a second, in its
-/// own frame).
+/// own frame), or is a moment off from there: clocks do not quite agree.
 [[nodiscard]] std::vector<float> simulate_ranges(const RayCaster& walls, std::span<const Disc> discs,
                                                  const LaserModel& laser, const Pose2& T_world_laser,
                                                  const Vector3d& twist, const LaserNoise& noise, const LaserBias& bias,

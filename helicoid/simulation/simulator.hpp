@@ -9,6 +9,9 @@
 
 #include "helicoid/simulation/drive.hpp"
 #include "helicoid/simulation/laser_simulator.hpp"
+#include "helicoid/simulation/odometer.hpp"
+#include "helicoid/simulation/pedestrians.hpp"
+#include "helicoid/simulation/sighting_simulator.hpp"
 
 namespace helicoid {
 
@@ -53,15 +56,9 @@ class Simulator {
 
  private:
   struct Robot;
-  struct Person {
-    Vector2d at, target;
-  };
   Simulator(const World& world, const SimulationOptions& options);
   void tick();
-  [[nodiscard]] Vector2d open_place();
   [[nodiscard]] std::vector<Disc> discs_around(std::size_t index) const;
-  [[nodiscard]] bool hidden(const Vector2d& from, const Vector2d& to, std::span<const Disc> discs) const;
-  void move_people();
   [[nodiscard]] double way_aside(std::size_t index);
   void move_robot(std::size_t index);
   void scan(std::size_t index);
@@ -69,11 +66,9 @@ class Simulator {
 
   SimulationOptions options_;
   RayCaster walls_;
-  std::vector<Route> routes_;
   LaserModel laser_;
-  Random random_;
   std::vector<Robot> robots_;
-  std::vector<Person> people_;
+  std::optional<Pedestrians> people_;
   std::vector<double> last_sighting_;  ///< by pair
   std::queue<SimulatedEvent> events_;
   double closest_approach_ = std::numeric_limits<double>::infinity();
@@ -84,9 +79,8 @@ struct Simulator::Robot {
   RouteDriver driver;
   Random random;
   LaserBias laser_bias;
+  Odometer odometer;
   Vector3d twist = Vector3d::Zero();  ///< of the robot in its own frame, metres and radians a second
-  double distance_scale = 1, turn_scale = 1, drift = 0;
-  Pose2 T_odom_robot;
   int patience = 0;  ///< ticks that another has been near; below 0: that it will not get out of the way
   bool done = false;
 };

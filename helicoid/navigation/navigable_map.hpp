@@ -1,0 +1,38 @@
+// A snapshot of what can be driven on a manifold map: routes (plan_route.hpp) and distances (distance_field.hpp) are
+// asked of it. Design 5.7.
+#pragma once
+
+#include <memory>
+
+#include "helicoid/navigation/floor_plan.hpp"
+#include "helicoid/navigation/manifold_point.hpp"
+
+namespace helicoid {
+
+class NavigableMap {
+ public:
+  /// `neighbours` are the map's own, as find_neighbours has them now. `before`: an earlier snapshot of the same map, of
+  /// which all that still holds is taken over; not one of a map from before a replay.
+  NavigableMap(const Map& map, const Neighbours& neighbours, const NavigationOptions& options = {},
+               const NavigableMap* before = nullptr);
+
+  [[nodiscard]] const NavigationOptions& options() const { return plan_->options; }
+  /// Patches that the snapshot knows: points on newer ones are off the ground.
+  [[nodiscard]] std::size_t patch_count() const { return plan_->T_plane_patch.size(); }
+  /// Where a point projected to when the snapshot was taken.
+  [[nodiscard]] Vector2d project(const ManifoldPoint& point) const {
+    return plan_->T_plane_patch[point.patch.index()] * point.p_patch;
+  }
+  /// The distance to what a robot there could touch or does not know, up to 0.8 m; 0 off the ground. Counts only what
+  /// the patch and its neighbours say: their sheet.
+  [[nodiscard]] double clearance(const ManifoldPoint& point) const;
+  /// True where a robot may drive through.
+  [[nodiscard]] bool is_passable(const ManifoldPoint& point) const;
+
+  [[nodiscard]] const std::shared_ptr<const FloorPlan>& plan() const { return plan_; }
+
+ private:
+  std::shared_ptr<const FloorPlan> plan_;
+};
+
+}  // namespace helicoid

@@ -1,0 +1,217 @@
+#include "helicoid/navigation/plan_route.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "helicoid/geometry/ray_casting.hpp"
+#include "helicoid/navigation/distance_field.hpp"
+#include "tests/synthetic_room.hpp"
+
+namespace helicoid {
+namespace {
+
+using synthetic::Builder;
+using synthetic::Wall;
+
+/// All patches vouch for one another, or those do that were made less than `apart` after one another.
+Neighbours neighbours_of(const Map& map, std::size_t apart = 1000) {
+  Neighbours neighbours(map.patch_count());
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    for (std::size_t j = 0; j < neighbours.size(); ++j) {
+      if (i != j && std::max(i, j) - std::min(i, j) < apart) neighbours[i].push_back(make_id<PatchId>(j));
+    }
+  }
+  return neighbours;
+}
+
+RayCaster casting(const std::vector<Wall>& walls) {
+  std::vector<Segment> segments;
+  segments.reserve(walls.size());
+  for (const Wall& wall : walls) segments.push_back({wall.from, wall.to});
+  return RayCaster(segments);
+}
+
+/// The least distance to a wall anywhere on the route.
+double closest(const Map& map, const ManifoldRoute& route, const std::vector<Wall>& walls) {
+  const RayCaster caster = casting(walls);
+  double least = 10;
+  for (std::size_t i = 1; i < route.points.size(); ++i) {
+    const Vector2d from = project(map, route.points[i - 1]);
+    const Vector2d to = project(map, route.points[i]);
+    for (double share = 0; share <= 1; share += 0.02) {
+      least = std::min(least, caster.clearance(from + share * (to - from), 10));
+    }
+  }
+  return least;
+}
+
+/// Two rooms of 6 m by 5 m beside one another, with a door in the wall between them.
+struct TwoRooms {
+  std::vector<Wall> walls = synthetic::rectangle(0, 0, 12, 5);
+  Builder builder;
+  explicit TwoRooms(double door) {
+    synthetic::append(walls, {{{6, 0}, {6, 3 - door / 2}}, {{6, 3 + door / 2}, {6, 5}}});
+    for (const Pose2& pose : {Pose2{1, 1, 0.5}, {1, 1, 2.0}, {4.5, 3, 0}, {4.5, 3, 3.1}, {7.5, 3, 0}, {7.5, 3, 3.1}}) {
+      builder.add(walls, pose);
+    }
+  }
+  [[nodiscard]] ManifoldRoute route(const ManifoldPoint& goal) const {
+    const NavigableMap map(builder.map, neighbours_of(builder.map));
+    return plan_route(map, {PatchId{0}, {}}, goal);
+  }
+  /// A place in the far room.
+  ManifoldPoint there{PatchId{4}, {2, -1}};
+};
+
+TEST(PlanRoute, LeadsThroughADoorThatIsWideEnough) {
+  for (const double door : {0.9, 1.0, 1.2}) {
+    const TwoRooms rooms(door);
+    const ManifoldRoute route = rooms.route(rooms.there);
+    ASSERT_EQ(route.status, RouteStatus::found) << door;
+    const auto apart = [&](const ManifoldPoint& a, const ManifoldPoint& b) {
+      return (project(rooms.builder.map, a) - project(rooms.builder.map, b)).norm();
+    };
+    EXPECT_LT(apart(route.points.front(), {PatchId{0}, {0, 0}}), 1e-9);
+    EXPECT_LT(apart(route.points.back(), rooms.there), 1e-9);
+    EXPECT_GE(closest(rooms.builder.map, route, rooms.walls), 0.25) << door;
+    EXPECT_LE(route.length,
+              1.15 * ((Vector2d(6, 3) - Vector2d(1, 1)).norm() + (Vector2d(9.5, 2) - Vector2d(6, 3)).norm()));
+  }
+}
+
+TEST(PlanRoute, NeverLeadsThroughADoorThatIsTooNarrow) {
+  const TwoRooms rooms(0.4);
+  EXPECT_EQ(rooms.route(rooms.there).status, RouteStatus::unreachable);
+}
+
+TEST(PlanRoute, SaysWhatIsOffTheGround) {
+  const TwoRooms rooms(0.9);
+  EXPECT_EQ(rooms.route({PatchId{0}, {40, 0}}).status, RouteStatus::goal_off_ground);
+  EXPECT_EQ(rooms.route({PatchId{99}, {0, 0}}).status, RouteStatus::goal_off_ground);
+  const NavigableMap map(rooms.builder.map, neighbours_of(rooms.builder.map));
+  EXPECT_EQ(plan_route(map, {PatchId{0}, {-30, 0, 0}}, rooms.there).status, RouteStatus::start_off_ground);
+}
+
+TEST(PlanRoute, KeepsAwayFromWhatIsClosedForNow) {
+  std::vector<Wall> walls = synthetic::rectangle(0, 0, 12, 5);
+  Builder builder;
+  for (const Pose2& pose : {Pose2{1, 2.5, 0}, {11, 2.5, 3.1}}) builder.add(walls, pose);
+  const NavigableMap map(builder.map, neighbours_of(builder.map));
+  const ManifoldPose from{PatchId{0}, {}};
+  const ManifoldPoint goal{PatchId{0}, {9, 0}};
+  EXPECT_LT(plan_route(map, from, goal).length, 9.1);
+  const ClosedFloor someone{{PatchId{0}, {4, 0}}, 0.8};
+  const ManifoldRoute round = plan_route(map, from, goal, {&someone, 1});
+  ASSERT_EQ(round.status, RouteStatus::found);
+  for (std::size_t i = 1; i < round.points.size(); ++i) {
+    const Vector2d a = project(builder.map, round.points[i - 1]);
+    const Vector2d b = project(builder.map, round.points[i]);
+    for (double share = 0; share <= 1; share += 0.05) EXPECT_GT((a + share * (b - a) - Vector2d(5, 2.5)).norm(), 0.74);
+  }
+  const ClosedFloor all_across{{PatchId{0}, {4, 0}}, 2.5};
+  EXPECT_EQ(plan_route(map, from, goal, {&all_across, 1}).status, RouteStatus::unreachable);
+}
+
+TEST(PlanRoute, KeepsItsClearanceInClutteredRooms) {
+  Random random(5);
+  int found = 0;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Wall> walls = synthetic::rectangle(0, 0, 14, 9);
+    for (int i = 0; i < 14; ++i) {
+      const Vector2d low(random.uniform(1, 12), random.uniform(1, 7));
+      const Vector2d high = low + Vector2d(random.uniform(0.05, 1), random.uniform(0.05, 1));
+      synthetic::append(walls, synthetic::rectangle(low.x(), low.y(), high.x(), high.y()));
+    }
+    const RayCaster caster = casting(walls);
+    Builder builder;
+    while (builder.map.patch_count() < 30) {
+      const Pose2 pose{random.uniform(0.3, 13.7), random.uniform(0.3, 8.7), random.uniform(-3.1, 3.1)};
+      if (caster.clearance(pose.translation(), 1) > 0.4) builder.add(walls, pose);
+    }
+    const NavigableMap map(builder.map, neighbours_of(builder.map));
+    for (std::uint32_t i = 1; i < 30; ++i) {
+      const ManifoldRoute route = plan_route(map, {PatchId{i - 1}, {}}, {PatchId{i}, {0, 0}});
+      if (route.status != RouteStatus::found) continue;
+      ++found;
+      EXPECT_GE(closest(builder.map, route, walls), 0.25) << "round " << round << ", to " << i;
+    }
+  }
+  EXPECT_GT(found, 400);
+}
+
+/// A corridor of 2 m round a block, driven round a little more than once.
+struct Ring {
+  std::vector<Wall> walls = synthetic::rectangle(0, 0, 20, 14);
+  Builder builder;
+  Ring() {
+    synthetic::append(walls, synthetic::rectangle(2, 2, 18, 12));
+    const std::vector<Vector2d> corners{{1, 1}, {19, 1}, {19, 13}, {1, 13}};
+    for (double along = 0; along < 66; along += 1.5) {
+      double rest = std::fmod(along, 60);
+      std::size_t k = 0;
+      for (; rest > (corners[(k + 1) % 4] - corners[k]).norm(); k = (k + 1) % 4) {
+        rest -= (corners[(k + 1) % 4] - corners[k]).norm();
+      }
+      const Vector2d way = (corners[(k + 1) % 4] - corners[k]).normalized();
+      const Vector2d p = corners[k] + rest * way;
+      builder.add(walls, {p.x(), p.y(), wrap_angle(std::atan2(way.y(), way.x()))});
+    }
+  }
+  [[nodiscard]] ManifoldPose last() const { return {make_id<PatchId>(builder.map.patch_count() - 1), {}}; }
+};
+
+TEST(PlanRoute, GoesTheLongWayRoundWhereSheetsLieOverOneAnother) {
+  const Ring ring;
+  const ManifoldPoint start{PatchId{0}, {0.2, 0}};
+  const NavigableMap spiral(ring.builder.map, neighbours_of(ring.builder.map, 12));
+  const ManifoldRoute long_way = plan_route(spiral, ring.last(), start);
+  ASSERT_EQ(long_way.status, RouteStatus::found);
+  EXPECT_GT(long_way.length, 55);
+  EXPECT_NEAR(distances_from(spiral, ring.last()).metres_to(start), long_way.length, 0.1 * long_way.length);
+  const NavigableMap closed(ring.builder.map, neighbours_of(ring.builder.map));
+  const ManifoldRoute short_way = plan_route(closed, ring.last(), start);
+  ASSERT_EQ(short_way.status, RouteStatus::found);
+  EXPECT_LT(short_way.length, 8);
+}
+
+TEST(NavigableMap, IsTheSameWhetherItTakesOverFromTheOneBeforeOrNot) {
+  const Ring ring;
+  Builder growing;
+  std::optional<NavigableMap> before;
+  for (std::size_t i = 0; i < ring.builder.map.patch_count(); ++i) {
+    growing.add(ring.walls, ring.builder.map.T_plane_patch(make_id<PatchId>(i)));
+    if (i % 7 != 0) continue;
+    const Neighbours neighbours = neighbours_of(growing.map, 12);
+    const NavigableMap anew(growing.map, neighbours);
+    before = NavigableMap(growing.map, neighbours, NavigationOptions{}, before ? &*before : nullptr);
+    ASSERT_EQ(before->plan()->tiles.size(), anew.plan()->tiles.size());
+    for (std::size_t k = 0; k < anew.plan()->tiles.size(); ++k) {
+      EXPECT_EQ(before->plan()->tiles[k]->clearance, anew.plan()->tiles[k]->clearance);
+    }
+  }
+}
+
+TEST(DistanceField, IsInfiniteWhereNoRouteLeads) {
+  const TwoRooms rooms(0.4);
+  const NavigableMap map(rooms.builder.map, neighbours_of(rooms.builder.map));
+  const DistanceField field = distances_from(map, ManifoldPose{PatchId{0}, {}});
+  EXPECT_TRUE(std::isinf(field.metres_to(rooms.there)));
+  EXPECT_NEAR(field.metres_to({PatchId{2}, {0, 0}}), (Vector2d(1, 1) - Vector2d(4.5, 3)).norm(), 0.4);
+  EXPECT_TRUE(std::isinf(distances_from(map, ManifoldPose{PatchId{0}, {-30, 0, 0}}).metres_to(rooms.there)));
+}
+
+TEST(NavigableMap, ForgetsWhatMorePatchesLookThroughThanSaw) {
+  const std::vector<Wall> room = synthetic::rectangle(0, 0, 8, 5);
+  std::vector<Wall> with_someone = room;
+  synthetic::append(with_someone, synthetic::rectangle(3.8, 2.3, 4.2, 2.7));
+  Builder builder;
+  builder.add(with_someone, {2, 2.5, 0});
+  const ManifoldPoint there{PatchId{0}, {2, 0}};
+  EXPECT_FALSE(NavigableMap(builder.map, neighbours_of(builder.map)).is_passable(there));
+  for (const double x : {2.5, 3.0, 3.5}) builder.add(room, {x, 2.5, 0});
+  EXPECT_TRUE(NavigableMap(builder.map, neighbours_of(builder.map)).is_passable(there));
+}
+
+}  // namespace
+}  // namespace helicoid
