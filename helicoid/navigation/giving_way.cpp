@@ -1,0 +1,80 @@
+// The part of the follower that gets out of another's way: two who meet where neither can pass.
+#include <algorithm>
+
+#include "helicoid/navigation/route_follower.hpp"
+
+namespace helicoid {
+
+namespace {
+
+constexpr double kGotSomewhere = 0.3;     // metres
+constexpr double kTrailStep = 0.2;        // metres
+constexpr std::size_t kTrailLength = 40;  // steps
+constexpr double kRoomToPass = 0.6;       // round a robot that lets another pass, metres
+constexpr double kLeastRetreat = 1.2;     // metres
+constexpr double kTrailReach = 3.0;       // metres
+constexpr double kWaitAside = 6;          // seconds
+
+}  // namespace
+
+void RouteFollower::note_trail(const Map& map, const ManifoldPose& robot) {
+  const Pose2 T_plane_robot = map.project(robot);
+  if (!trail_.empty()) {
+    const ManifoldPose& last = trail_.back().pose;
+    const bool same_island = map.island_of(last.patch) == map.island_of(robot.patch);
+    if (!same_island) trail_.clear();
+    if (same_island && (T_plane_robot.translation() - map.project(last).translation()).norm() < kTrailStep) return;
+  }
+  trail_.push_back({robot, obstacles_.clearance({0, 0}, 1)});
+  if (trail_.size() > kTrailLength) trail_.pop_front();
+}
+
+/// By odometry: what the map thinks of it does not count.
+void RouteFollower::note_progress(const Scan& scan, double dt) {
+  waiting_ += dt;
+  if (!scan.has_odometry) return;
+  const Vector2d here = scan.T_odom_robot.translation();
+  if (p_odom_waiting_ && (here - *p_odom_waiting_).norm() < kGotSomewhere) return;
+  p_odom_waiting_ = here;
+  waiting_ = 0;
+}
+
+/// Back to where there is room for two, by the way that the robot came: it is known to be free.
+void RouteFollower::give_way(const Map& map, const ManifoldPose& robot) {
+  GivingWay giving;
+  giving.way.push_back(point_of(robot));
+  Vector2d before = map.project(robot).translation();
+  double length = 0;
+  for (auto at = trail_.rbegin(); at != trail_.rend(); ++at) {
+    const Vector2d p = map.project(at->pose).translation();
+    length += (p - before).norm();
+    before = p;
+    giving.way.push_back(point_of(at->pose));
+    if (length >= kLeastRetreat && at->room >= kRoomToPass) break;
+  }
+  waiting_ = 0;
+  if (length > kTrailStep) giving_way_ = std::move(giving);
+}
+
+/// The command while the robot gives way; none if it does not, or not any more.
+std::optional<DriveCommand> RouteFollower::step_aside(const Map& map, const ManifoldPose& robot, double dt) {
+  if (!giving_way_) return std::nullopt;
+  const RouteAhead back = route_ahead(map, giving_way_->way, robot, giving_way_->cursor, kTrailReach);
+  giving_way_->cursor = back.cursor;
+  const bool is_there = back.left + back.aside < options_.arrived;
+  if (!is_there && giving_way_->waited == 0 && waiting_ < options_.patience) {
+    return pursue(back.way, back.left + back.aside);
+  }
+  // There, or not able to get there: looking at where it wants to go.
+  giving_way_->waited += dt;
+  waiting_ = 0;
+  if (giving_way_->waited > kWaitAside) {
+    giving_way_.reset();
+    return std::nullopt;
+  }
+  const RouteAhead ahead = route_ahead(map, route_.points, robot, cursor_, kTrailReach);
+  const Vector2d target = point_along(ahead.way, options_.look_ahead).p;
+  return turn_to(std::atan2(target.y(), target.x()));
+}
+
+}  // namespace helicoid

@@ -1,0 +1,152 @@
+#include "helicoid/navigation/route_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/navigation/local_detour.hpp"
+
+namespace helicoid {
+
+namespace {
+
+constexpr double kReach = 3.0;         // of the route that is looked at, metres
+constexpr double kShortest = 0.12;     // look-ahead, metres
+constexpr double kLookingStep = 0.08;  // between look-aheads that are tried, metres
+constexpr double kBesideAhead = 0.7;   // metres
+constexpr double kMostAside = 0.8;     // metres
+constexpr double kTurnGain = 2.5;      // radians a second for a radian
+constexpr double kTurnOfYielding = 2;  // between two robots' turns to give way, seconds
+constexpr int kTurns = 8;
+
+double bearing_of(const Vector2d& p) {
+  return std::atan2(p.y(), p.x());
+}
+
+}  // namespace
+
+void RouteFollower::follow(ManifoldRoute route, std::optional<double> heading_patch) {
+  route_ = std::move(route);
+  heading_patch_ = heading_patch;
+  cursor_ = {};
+}
+
+void RouteFollower::stop() {
+  route_ = {};
+  giving_way_.reset();
+  waiting_ = 0;
+}
+
+FollowStep RouteFollower::step(const Map& map, const ManifoldPose& robot, const Scan& scan, const LaserModel& laser,
+                               double dt) {
+  obstacles_.see(scan, laser, dt);
+  note_trail(map, robot);
+  if (route_.points.empty()) return {};
+  note_progress(scan, dt);
+  if (!giving_way_ && waiting_ > options_.patience + kTurnOfYielding * (kTurns - options_.right_of_way % kTurns)) {
+    give_way(map, robot);
+  }
+  if (const std::optional<DriveCommand> aside = step_aside(map, robot, dt)) {
+    const RouteAhead ahead = route_ahead(map, route_.points, robot, cursor_, kReach);
+    return {*aside, FollowStatus::blocked, ahead.left, std::nullopt};
+  }
+  FollowStep step = drive(map, robot);
+  if (step.status == FollowStatus::arrived) waiting_ = 0;
+  if (step.status == FollowStatus::driving && waiting_ > options_.patience) step.status = FollowStatus::blocked;
+  return step;
+}
+
+FollowStep RouteFollower::drive(const Map& map, const ManifoldPose& robot) {
+  const RouteAhead ahead = route_ahead(map, route_.points, robot, cursor_, kReach);
+  cursor_ = ahead.cursor;
+  const double to_goal = ahead.left + ahead.aside;
+  if (to_goal < options_.arrived) return finish(map, robot, to_goal);
+  FollowStep step;
+  step.status = FollowStatus::driving;
+  step.left = ahead.left;
+  std::vector<Vector2d> way = ahead.way;
+  if (const std::optional<Vector2d> barred = first_barred(way)) {
+    step.obstruction = ManifoldPoint{robot.patch, robot.T_patch_robot * *barred};
+    DetourOptions detour;
+    detour.radius = radius() + 0.01;
+    std::vector<Vector2d> round = find_detour(obstacles_, way, detour);
+    if (!round.empty()) {
+      way = std::move(round);
+    } else if (const std::optional<Vector2d> side = place_to_the_right(way)) {
+      step.command = drive_to(*side, to_goal);
+      return step;
+    }
+  }
+  step.command = pursue(way, to_goal);
+  return step;
+}
+
+/// Ahead, as far to the right of the way as there is room: where two meet, each makes room for the other.
+std::optional<Vector2d> RouteFollower::place_to_the_right(std::span<const Vector2d> way) const {
+  const PointAlong from = point_along(way, 0.5 * kBesideAhead);
+  const PointAlong to = point_along(way, kBesideAhead);
+  const Vector2d along = to.p - from.p;
+  if (along.norm() < 0.1) return std::nullopt;
+  const Vector2d right = Vector2d(along.y(), -along.x()).normalized();
+  for (double aside = kMostAside; aside > 0.05; aside -= 0.05) {
+    const Vector2d p = to.p + aside * right;
+    if (obstacles_.clearance(p, radius()) < radius()) continue;
+    if (obstacles_.free_way(p, radius()) >= p.norm() - 1e-9) return p;
+  }
+  return std::nullopt;
+}
+
+FollowStep RouteFollower::finish(const Map& map, const ManifoldPose& robot, double left) {
+  FollowStep step{{}, FollowStatus::arrived, left, std::nullopt};
+  if (!heading_patch_) return step;
+  const double heading = map.T_plane_patch(route_.points.back().patch).yaw + *heading_patch_;
+  const double turn = wrap_angle(heading - map.project(robot).yaw);
+  if (std::abs(turn) < options_.heading_arrived) return step;
+  step.command = turn_to(turn);
+  step.status = FollowStatus::driving;
+  return step;
+}
+
+/// Where the robot would touch something first if it kept to the way.
+std::optional<Vector2d> RouteFollower::first_barred(std::span<const Vector2d> way) const {
+  const double length = point_along(way, kReach).along;
+  for (double along = 0; along <= length; along += kLookingStep) {
+    const Vector2d p = point_along(way, along).p;
+    if (p.norm() > radius() && obstacles_.clearance(p, radius()) < radius()) return p;
+  }
+  return std::nullopt;
+}
+
+/// Pure pursuit (Coulter 1992) of the farthest point of the way to which the robot can go straight.
+DriveCommand RouteFollower::pursue(std::span<const Vector2d> way, double left) {
+  for (double along = options_.look_ahead; along >= kShortest; along -= kLookingStep) {
+    const Vector2d target = point_along(way, along).p;
+    if (obstacles_.free_way(target, radius()) < target.norm() - 1e-9) continue;
+    return drive_to(target, left);
+  }
+  // Up to what stands there, looking at it.
+  return turn_to(bearing_of(point_along(way, options_.look_ahead).p));
+}
+
+DriveCommand RouteFollower::turn_to(double bearing) {
+  if (std::abs(bearing) < 0.03) return {};
+  return {0, std::clamp(kTurnGain * bearing, -options_.top_turn_rate, options_.top_turn_rate)};
+}
+
+DriveCommand RouteFollower::drive_to(const Vector2d& target, double left) {
+  const double bearing = bearing_of(target);
+  turning_ = std::abs(bearing) > (turning_ ? 0.3 * options_.turn_in_place : options_.turn_in_place);
+  if (turning_) return turn_to(bearing);
+  const double curvature = 2 * std::sin(bearing) / std::max(target.norm(), 0.2);
+  const double free = obstacles_.free_arc(curvature, radius(), 1.0);
+  const double room = obstacles_.clearance({0, 0}, 1) - radius();
+  double speed = options_.top_speed * (1 - std::abs(bearing) / (2 * options_.turn_in_place));
+  // Whoever comes towards the robot brakes as well: each has half the way.
+  speed = std::min(speed, std::sqrt(options_.braking * std::max(0.0, free - 0.08)));
+  speed = std::min(speed, 0.05 + std::sqrt(options_.braking * left));
+  speed = std::min(speed, 0.2 + 2 * std::max(room, 0.0));
+  if (std::abs(curvature) > 1e-6) speed = std::min(speed, options_.top_turn_rate / std::abs(curvature));
+  if (speed < 0.03) return turn_to(bearing);
+  return {speed, speed * curvature};
+}
+
+}  // namespace helicoid

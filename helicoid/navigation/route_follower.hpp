@@ -1,0 +1,96 @@
+// Drives a robot along a route, patch by patch: steers in the frames of patches near by, so that no re-fit jerks it,
+// and gets round, or out of the way of, what the map does not know.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "helicoid/navigation/live_obstacles.hpp"
+#include "helicoid/navigation/plan_route.hpp"
+#include "helicoid/navigation/route_ahead.hpp"
+#include "helicoid/sensor/drive_command.hpp"
+
+namespace helicoid {
+
+struct FollowerOptions {
+  double robot_radius = 0.20;    ///< metres
+  double margin = 0.04;          ///< kept from everything that the scan shows, metres
+  double top_speed = 0.6;        ///< metres a second
+  double top_turn_rate = 1.0;    ///< radians a second
+  double braking = 0.7;          ///< what is counted on, metres a second squared
+  double look_ahead = 0.6;       ///< of the pursuit, metres
+  double turn_in_place = 0.7;    ///< a target farther to the side than this is turned to on the spot, radians
+  double arrived = 0.10;         ///< this near to the goal is there, metres
+  double heading_arrived = 0.1;  ///< radians
+  double patience = 4;           ///< without getting anywhere until a robot says that it is blocked, seconds
+  /// Of robots that wait for one another the one with the largest number gives way first; numbers differ.
+  int right_of_way = 0;
+};
+
+enum class FollowStatus : std::uint8_t {
+  idle,
+  driving,
+  arrived,
+  blocked,  ///< it has got nowhere for a while: plan again, or wait; it keeps trying
+};
+
+struct FollowStep {
+  DriveCommand command;
+  FollowStatus status = FollowStatus::idle;
+  double left = 0;                           ///< of the route, metres
+  std::optional<ManifoldPoint> obstruction;  ///< on the route, if something stands there now
+};
+
+/// One for each robot.
+class RouteFollower {
+ public:
+  explicit RouteFollower(const FollowerOptions& options = {}) : options_(options) {}
+
+  /// From now on this route (found), and at its end turned to this heading in the frame of its last point's patch.
+  void follow(ManifoldRoute route, std::optional<double> heading_patch = std::nullopt);
+  /// No route any more: idle.
+  void stop();
+  [[nodiscard]] const ManifoldRoute& route() const { return route_; }
+
+  /// Where the robot stands (on a patch of the map) and what it sees there; `dt` seconds after the last step.
+  [[nodiscard]] FollowStep step(const Map& map, const ManifoldPose& robot, const Scan& scan, const LaserModel& laser,
+                                double dt);
+
+ private:
+  /// Where the robot came from.
+  struct Trail {
+    ManifoldPose pose;
+    double room = 0;  ///< round it, metres
+  };
+  /// Getting out of the way: back along the trail, then waiting.
+  struct GivingWay {
+    std::vector<ManifoldPoint> way;
+    RouteCursor cursor;
+    double waited = 0;  ///< at its end, seconds
+  };
+  void note_trail(const Map& map, const ManifoldPose& robot);
+  void note_progress(const Scan& scan, double dt);
+  void give_way(const Map& map, const ManifoldPose& robot);
+  [[nodiscard]] double radius() const { return options_.robot_radius + options_.margin; }
+  [[nodiscard]] DriveCommand pursue(std::span<const Vector2d> way, double left);
+  [[nodiscard]] DriveCommand turn_to(double bearing);
+  [[nodiscard]] DriveCommand drive_to(const Vector2d& target, double left);
+  [[nodiscard]] FollowStep drive(const Map& map, const ManifoldPose& robot);
+  [[nodiscard]] FollowStep finish(const Map& map, const ManifoldPose& robot, double left);
+  [[nodiscard]] std::optional<DriveCommand> step_aside(const Map& map, const ManifoldPose& robot, double dt);
+  [[nodiscard]] std::optional<Vector2d> place_to_the_right(std::span<const Vector2d> way) const;
+  [[nodiscard]] std::optional<Vector2d> first_barred(std::span<const Vector2d> way) const;
+
+  FollowerOptions options_;
+  ManifoldRoute route_;
+  std::optional<double> heading_patch_;
+  RouteCursor cursor_;
+  LiveObstacles obstacles_;
+  std::deque<Trail> trail_;
+  std::optional<GivingWay> giving_way_;
+  bool turning_ = false;
+  double waiting_ = 0;  ///< since the robot last got anywhere, seconds
+  std::optional<Vector2d> p_odom_waiting_;
+};
+
+}  // namespace helicoid

@@ -1,0 +1,272 @@
+#include "helicoid/navigation/route_follower.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "helicoid/geometry/ray_casting.hpp"
+#include "tests/synthetic_room.hpp"
+
+namespace helicoid {
+namespace {
+
+using synthetic::Builder;
+using synthetic::Wall;
+
+constexpr double kDt = 0.1;
+constexpr double kRadius = 0.20;
+
+Neighbours all_neighbours(const Map& map) {
+  Neighbours neighbours(map.patch_count());
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    for (std::size_t j = 0; j < neighbours.size(); ++j) {
+      if (i != j) neighbours[i].push_back(make_id<PatchId>(j));
+    }
+  }
+  return neighbours;
+}
+
+/// A robot's outline, or a person's.
+std::vector<Wall> outline(const Vector2d& centre, double radius) {
+  std::vector<Wall> sides;
+  sides.reserve(12);
+  const auto corner = [&](int k) {
+    const double angle = radians(30.0 * k);
+    return Vector2d(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
+  };
+  for (int k = 0; k < 12; ++k) sides.push_back({corner(k), corner(k + 1)});
+  return sides;
+}
+
+struct Driver {
+  Pose2 T_plane_robot;
+  RouteFollower follower;
+  DriveCommand wheels = {};
+  FollowStep step = {};
+  double closest = 10;  ///< to a wall or to another, metres
+};
+
+/// Robots that obey their limits in a building that the map knows.
+struct Floor {
+  std::vector<Wall> walls;
+  Builder builder;
+  std::vector<Wall> unknown;  ///< stands there, but is not in the map
+  std::vector<Driver> drivers = {};
+
+  [[nodiscard]] ManifoldPose on_map(const Pose2& pose) const {
+    PatchId best{0};
+    for (const PatchId id : builder.patches()) {
+      const auto distance = [&](PatchId p) {
+        return (builder.map.T_plane_patch(p).translation() - pose.translation()).norm();
+      };
+      if (distance(id) < distance(best)) best = id;
+    }
+    return {best, ominus(pose, builder.map.T_plane_patch(best))};
+  }
+
+  void send(const Pose2& from, const Vector2d& to, int right_of_way = 0) {
+    const NavigableMap map(builder.map, all_neighbours(builder.map));
+    FollowerOptions options;
+    options.right_of_way = right_of_way;
+    Driver driver{from, RouteFollower(options)};
+    ManifoldRoute route = plan_route(map, on_map(from), point_of(on_map({to.x(), to.y(), 0})));
+    ASSERT_EQ(route.status, RouteStatus::found);
+    driver.follower.follow(std::move(route));
+    drivers.push_back(std::move(driver));
+  }
+
+  void tick() {
+    for (std::size_t i = 0; i < drivers.size(); ++i) {
+      Driver& driver = drivers[i];
+      std::vector<Wall> seen = walls;
+      synthetic::append(seen, unknown);
+      for (std::size_t j = 0; j < drivers.size(); ++j) {
+        if (j != i) synthetic::append(seen, outline(drivers[j].T_plane_robot.translation(), kRadius));
+      }
+      const Scan scan = synthetic::take_scan(seen, driver.T_plane_robot, builder.laser);
+      driver.step = driver.follower.step(builder.map, on_map(driver.T_plane_robot), scan, builder.laser, kDt);
+      move(driver);
+      std::vector<Segment> segments;
+      segments.reserve(seen.size());
+      for (const Wall& wall : seen) segments.push_back({wall.from, wall.to});
+      driver.closest = std::min(driver.closest, RayCaster(segments).clearance(driver.T_plane_robot.translation(), 10));
+    }
+  }
+  static void move(Driver& driver) {
+    const auto towards = [](double now, double wanted, double most) {
+      return now + std::clamp(wanted - now, -most, most);
+    };
+    driver.wheels.speed = towards(driver.wheels.speed, driver.step.command.speed, 1.0 * kDt);
+    driver.wheels.turn_rate = towards(driver.wheels.turn_rate, driver.step.command.turn_rate, 3.0 * kDt);
+    driver.T_plane_robot =
+        driver.T_plane_robot * exponential(kDt * Vector3d(driver.wheels.speed, 0, driver.wheels.turn_rate));
+  }
+  /// Until all have arrived; how long that took, seconds.
+  double run(double longest) {
+    double now = 0;
+    const auto done = [](const Driver& d) { return d.step.status == FollowStatus::arrived; };
+    while (now < longest && !std::all_of(drivers.begin(), drivers.end(), done)) {
+      tick();
+      now += kDt;
+    }
+    return now;
+  }
+};
+
+/// Two rooms with a door of 0.9 m between them, one with a table.
+Floor two_rooms() {
+  std::vector<Wall> walls = synthetic::rectangle(0, 0, 12, 5);
+  synthetic::append(walls, {{{6, 0}, {6, 2.55}}, {{6, 3.45}, {6, 5}}});
+  synthetic::append(walls, synthetic::rectangle(8, 1.5, 9.5, 2.5));
+  Floor floor{walls, Builder(), {}};
+  for (const Pose2& pose : {Pose2{1, 1, 0.5},
+                            {1, 4, -0.5},
+                            {4.5, 3, 0},
+                            {4.5, 3, 3.1},
+                            {7.5, 3, 0},
+                            {7.5, 3, 3.1},
+                            {11, 1, 2.0},
+                            {11, 4, -2.5}}) {
+    floor.builder.add(walls, pose);
+  }
+  return floor;
+}
+
+/// A corridor that is known from either end.
+Floor corridor(double width) {
+  const std::vector<Wall> walls = synthetic::rectangle(0, 0, 14, width);
+  Floor floor{walls, Builder(), {}};
+  for (double x = 1; x < 14; x += 2) {
+    floor.builder.add(walls, {x, width / 2, 0});
+    floor.builder.add(walls, {x, width / 2, 3.1});
+  }
+  return floor;
+}
+
+TEST(RouteFollower, ArrivesWithoutTouchingThroughADoor) {
+  Random random(2);
+  for (int round = 0; round < 10; ++round) {
+    Floor floor = two_rooms();
+    floor.send({random.uniform(0.5, 4), random.uniform(0.5, 4.5), random.uniform(-3, 3)},
+               {random.uniform(10, 11.5), random.uniform(0.5, 4.5)});
+    const double length = floor.drivers[0].follower.route().length;
+    EXPECT_LT(floor.run(100), 10 + 2 * length / 0.6) << "round " << round;
+    EXPECT_EQ(floor.drivers[0].step.status, FollowStatus::arrived);
+    EXPECT_GE(floor.drivers[0].closest, 0.22) << "round " << round;
+  }
+}
+
+TEST(RouteFollower, TurnsToTheHeadingThatItIsToldAtTheEnd) {
+  Floor floor = two_rooms();
+  floor.send({1, 1, 0}, {3, 1});
+  const ManifoldRoute route = floor.drivers[0].follower.route();
+  const double patch_yaw = floor.builder.map.T_plane_patch(route.points.back().patch).yaw;
+  floor.drivers[0].follower.follow(route, wrap_angle(2.5 - patch_yaw));
+  floor.run(30);
+  EXPECT_NEAR(floor.drivers[0].T_plane_robot.yaw, 2.5, 0.12);
+}
+
+TEST(RouteFollower, IsIdleWithoutARoute) {
+  Floor floor = two_rooms();
+  floor.drivers.push_back({{1, 1, 0}, RouteFollower{}});
+  floor.tick();
+  EXPECT_EQ(floor.drivers[0].step.status, FollowStatus::idle);
+  EXPECT_EQ(floor.drivers[0].step.command, DriveCommand{});
+}
+
+TEST(RouteFollower, StepsRoundWhatIsNotInTheMap) {
+  Floor floor = corridor(2.4);
+  floor.send({1, 1.2, 0}, {13, 1.2});
+  floor.unknown = outline({6, 1.3}, 0.3);
+  EXPECT_LT(floor.run(90), 60);
+  EXPECT_GE(floor.drivers[0].closest, 0.21);
+}
+
+TEST(RouteFollower, SaysThatItIsBlockedAndByWhat) {
+  Floor floor = corridor(2);
+  floor.send({1, 1, 0}, {13, 1});
+  floor.unknown = {{{6, 0}, {6, 2}}};
+  floor.run(20);
+  const Driver& driver = floor.drivers[0];
+  EXPECT_EQ(driver.step.status, FollowStatus::blocked);
+  ASSERT_TRUE(driver.step.obstruction.has_value());
+  EXPECT_NEAR(project(floor.builder.map, *driver.step.obstruction).x(), 6, 0.4);
+  EXPECT_GE(driver.closest, 0.21);
+}
+
+TEST(RouteFollower, PassesAnotherInACorridor) {
+  for (const double width : {1.3, 1.6, 2.0, 3.0}) {
+    Floor floor = corridor(width);
+    floor.send({1, width / 2, 0}, {13, width / 2}, 0);
+    floor.send({13, width / 2, 3.1}, {1, width / 2}, 1);
+    EXPECT_LT(floor.run(90), 70) << width;
+    for (const Driver& driver : floor.drivers) EXPECT_GE(driver.closest, 0.205) << width;
+  }
+}
+
+TEST(RouteFollower, GivesWayAtADoorByRank) {
+  for (const int first : {0, 1}) {
+    Floor floor = two_rooms();
+    floor.send({1, 3, 0}, {11, 3}, first);
+    floor.send({11, 3, 3.1}, {1, 3}, 1 - first);
+    EXPECT_LT(floor.run(150), 120);
+    for (const Driver& driver : floor.drivers) {
+      EXPECT_EQ(driver.step.status, FollowStatus::arrived);
+      EXPECT_GE(driver.closest, 0.205);
+    }
+  }
+}
+
+TEST(RouteFollower, GetsOutOfAPassageThatHasRoomForOne) {
+  std::vector<Wall> walls = synthetic::rectangle(0, 0, 4, 4);
+  walls = {{{0, 0}, {4, 0}},     {{4, 0}, {4, 1.5}}, {{4, 1.5}, {9, 1.5}}, {{9, 1.5}, {9, 0}},
+           {{9, 0}, {13, 0}},    {{13, 0}, {13, 4}}, {{13, 4}, {9, 4}},    {{9, 4}, {9, 2.4}},
+           {{9, 2.4}, {4, 2.4}}, {{4, 2.4}, {4, 4}}, {{4, 4}, {0, 4}},     {{0, 4}, {0, 0}}};
+  Floor floor{walls, Builder(), {}};
+  for (const Pose2& pose : {Pose2{1, 1, 0.3},
+                            {1, 3, -0.3},
+                            {3, 2, 0},
+                            {3, 2, 3.1},
+                            {6.5, 1.95, 0},
+                            {6.5, 1.95, 3.1},
+                            {10, 2, 0},
+                            {10, 2, 3.1},
+                            {12, 3, 3.1}}) {
+    floor.builder.add(walls, pose);
+  }
+  floor.send({1, 2, 0}, {12, 2}, 0);
+  floor.send({12, 2, 3.1}, {1, 2}, 1);
+  EXPECT_LT(floor.run(200), 150);
+  for (const Driver& driver : floor.drivers) {
+    EXPECT_EQ(driver.step.status, FollowStatus::arrived);
+    EXPECT_GE(driver.closest, 0.205);
+  }
+}
+
+TEST(RouteFollower, IsNotJerkedByARefit) {
+  Floor still = two_rooms();
+  still.send({1, 1, 0}, {11, 4});
+  Floor moved = two_rooms();
+  moved.send({1, 1, 0}, {11, 4});
+  for (int k = 0; k < 60; ++k) {
+    still.tick();
+    moved.tick();
+    EXPECT_NEAR(moved.drivers[0].step.command.speed, still.drivers[0].step.command.speed, 1e-6);
+    EXPECT_NEAR(moved.drivers[0].step.command.turn_rate, still.drivers[0].step.command.turn_rate, 1e-6);
+    // All patches go elsewhere together with what stands on them.
+    const Pose2 T_new_old{3.0 * std::sin(k), 0.7 * k, 0.3 * k};
+    MapEditor editor(moved.builder.map);
+    for (const PatchId id : moved.builder.patches()) {
+      editor.set_pose(id, T_new_old * moved.builder.map.T_plane_patch(id));
+    }
+    const auto put = [&](Vector2d& p) { p = T_new_old * p; };
+    for (Wall& wall : moved.walls) {
+      put(wall.from);
+      put(wall.to);
+    }
+    moved.drivers[0].T_plane_robot = T_new_old * moved.drivers[0].T_plane_robot;
+  }
+}
+
+}  // namespace
+}  // namespace helicoid
