@@ -1,0 +1,57 @@
+// The manifold's edge (design 5.7): the stretches of patches' free-space boundary that are neither obstacle nor covered
+// by a neighbour on the same sheet.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "helicoid/exploration/patch_view.hpp"
+#include "helicoid/manifold/neighbours.hpp"
+#include "helicoid/manifold/patch_set.hpp"
+
+namespace helicoid {
+
+struct OpenEdgeOptions {
+  PatchViewOptions view;
+  double beyond = 0.12;  ///< what must be unknown: the place this far outside the boundary, metres
+  /// An edge is compared anew when a patch has moved by more than this (a re-fit, a closure).
+  double moved = 0.03;           ///< metres
+  double turned = radians(0.4);  ///< radians
+};
+
+/// Kept from one call to the next: a patch's content never changes, so that each pair of patches is compared once,
+/// until a fit moves them.
+class OpenEdges {
+ public:
+  explicit OpenEdges(const OpenEdgeOptions& options = {}) : options_(options) {}
+
+  /// Takes in what the map has become.
+  void update(const Map& map, const Neighbours& neighbours);
+
+  /// What is open of a patch's boundary.
+  [[nodiscard]] const std::vector<OpenPoint>& of(PatchId id) const { return edges_[id.index()].open; }
+  /// The patches on the same sheet that may tell about what lies around a patch: its neighbours and theirs, itself
+  /// included; ascending.
+  [[nodiscard]] const std::vector<PatchId>& around(PatchId id) const { return edges_[id.index()].around; }
+  [[nodiscard]] bool same_sheet(PatchId a, PatchId b) const { return edges_[a.index()].near.contains(b.index()); }
+  [[nodiscard]] const PatchView& view(PatchId id) const { return *edges_[id.index()].view; }
+  [[nodiscard]] std::size_t size() const { return edges_.size(); }
+
+ private:
+  struct Edge {
+    std::unique_ptr<PatchView> view;
+    std::vector<OpenPoint> open;
+    std::vector<PatchId> around;
+    PatchSet near;                 ///< `around` as a set
+    PatchSet compared;             ///< those that `open` was compared with
+    Pose2 T_plane_patch_compared;  ///< where the patch lay then
+  };
+  void find_around(const Map& map, const Neighbours& neighbours);
+  void forget_moved(const Map& map);
+  void compare(const Map& map, std::size_t patch);
+
+  OpenEdgeOptions options_;
+  std::vector<Edge> edges_;
+};
+
+}  // namespace helicoid

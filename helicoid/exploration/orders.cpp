@@ -1,0 +1,61 @@
+#include "helicoid/exploration/orders.hpp"
+
+namespace helicoid {
+
+namespace {
+
+/// By the even-odd rule.
+bool lies_in(const std::vector<Vector2d>& ring, const Vector2d& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector2d& a = ring[i];
+    const Vector2d& b = ring[(i + 1) % ring.size()];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) * (b.x() - a.x()) / (b.y() - a.y())) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
+
+const char* name_of(GoalKind kind) {
+  switch (kind) {
+    case GoalKind::stay: return "stay";
+    case GoalKind::frontier: return "frontier";
+    case GoalKind::rendezvous: return "rendezvous";
+    case GoalKind::home: return "home";
+    case GoalKind::operator_: break;
+  }
+  return "operator";
+}
+
+void OrderBook::take(std::span<const Order> orders) {
+  for (const Order& order : orders) {
+    if (order.kind == OrderKind::forbid) {
+      forbidden_.push_back(order);
+    } else if (order.robot.valid()) {
+      by_robot_[order.robot] = order;
+    } else {
+      by_robot_.clear();
+      for_all_ = order;
+    }
+  }
+}
+
+const Order* OrderBook::of(RobotId robot) const {
+  const auto own = by_robot_.find(robot);
+  const Order* order = own != by_robot_.end() ? &own->second : for_all_ ? &*for_all_ : nullptr;
+  return order != nullptr && order->kind != OrderKind::resume ? order : nullptr;
+}
+
+bool OrderBook::is_forbidden(const Map& map, const ManifoldPoint& point) const {
+  for (const Order& order : forbidden_) {
+    const PatchId frame = order.point.patch;
+    if (map.island_of(frame) != map.island_of(point.patch)) continue;
+    const Pose2 T_frame_point = map.T_plane_patch(frame).inverse() * map.T_plane_patch(point.patch);
+    if (lies_in(order.region_patch, T_frame_point * point.p_patch)) return true;
+  }
+  return false;
+}
+
+}  // namespace helicoid

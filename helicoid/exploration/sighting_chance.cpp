@@ -1,0 +1,64 @@
+#include "helicoid/exploration/sighting_chance.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "helicoid/base/random.hpp"
+
+namespace helicoid {
+
+namespace {
+
+constexpr int kSamples = 400;
+constexpr double kStep = 0.10;  // metres along the line of sight
+constexpr double kBody = 0.40;  // metres: so near to either robot nothing else can stand
+
+/// The line of sight, through what patch a saw as free.
+bool is_open(const Patch& a, const Vector2d& from_a, const Vector2d& to_a) {
+  const double distance = (to_a - from_a).norm();
+  for (double at = kBody; at < distance - kBody; at += kStep) {
+    if (!is_ground(a, from_a + at / distance * (to_a - from_a))) return false;
+  }
+  // And a little beyond where it stands: a robot that would stand behind a corner is not in view.
+  return is_ground(a, to_a);
+}
+
+/// A square root of a covariance; of one that is not positive, of its diagonal.
+Matrix3d root_of(const Matrix3d& covariance) {
+  const Eigen::LLT<Matrix3d> factor(covariance);
+  if (factor.info() == Eigen::Success) return factor.matrixL();
+  return covariance.diagonal().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+}  // namespace
+
+double view_chance(const Map& map, const Doubt& doubt, const Pose2& T_a_watcher, const Pose2& T_b_shown,
+                   const SightingModel& model, const StandingNoise& noise, std::uint64_t seed) {
+  Random random(seed);
+  const Matrix3d root = root_of(doubt.T_a_b.covariance);
+  const auto disturbed = [&](const Pose2& pose) {
+    return pose *
+           Pose2{noise.position * random.normal(), noise.position * random.normal(), noise.heading * random.normal()};
+  };
+  const Patch& a = map.patch(doubt.a);
+  int seen = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const Vector3d error = root * Vector3d(random.normal(), random.normal(), random.normal());
+    const Pose2 T_a_b = Pose2::from_vector(doubt.T_a_b.T_a_b.vector() + error);
+    const Pose2 watcher = disturbed(T_a_watcher);
+    const Vector2d shown = (T_a_b * disturbed(T_b_shown)).translation();
+    const Vector2d view = watcher.inverse() * shown;
+    const bool in_view =
+        view.norm() <= model.range && std::abs(std::atan2(view.y(), view.x())) <= model.field_of_view / 2;
+    if (in_view && is_open(a, watcher.translation(), shown)) ++seen;
+  }
+  return static_cast<double>(seen) / kSamples;
+}
+
+double sighting_chance(double view_chance, const SightingModel& model, int looks) {
+  // Where the robots stand does not change between looks: whether they are in view is drawn once, each look anew.
+  return view_chance * (1 - std::pow(1 - model.reliability, std::max(0, looks)));
+}
+
+}  // namespace helicoid
