@@ -22,9 +22,9 @@ struct DrivableGrid {
     return column >= 0 && row >= 0 && column < width && row < height && clearance[index(column, row)] > 0;
   }
   [[nodiscard]] Vector2d centre(std::size_t cell_index) const {
-    const auto column = static_cast<double>(cell_index % static_cast<std::size_t>(width));
-    const auto row = static_cast<double>(cell_index / static_cast<std::size_t>(width));
-    return origin + cell * Vector2d(column + 0.5, row + 0.5);
+    const std::size_t column = cell_index % static_cast<std::size_t>(width);
+    const std::size_t row = cell_index / static_cast<std::size_t>(width);
+    return origin + cell * Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   }
 };
 

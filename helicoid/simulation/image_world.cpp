@@ -1,92 +1,46 @@
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <sstream>
 
+#include "helicoid/simulation/grey_image.hpp"
 #include "helicoid/simulation/world.hpp"
 
 namespace helicoid {
 
 namespace {
 
-/// Grey values, row 0 at the top.
-struct GreyImage {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> pixels;
-};
-
-constexpr int kLargestSide = 20000;
-
-Result<GreyImage> read_pgm(const std::string& bytes, const std::string& path) {
-  std::istringstream stream(bytes);
-  std::string magic;
-  stream >> magic;
-  int values[3] = {};
-  for (int& value : values) {
-    stream >> std::ws;
-    while (stream.peek() == '#') {
-      std::string comment;
-      std::getline(stream, comment);
-      stream >> std::ws;
-    }
-    if (!(stream >> value)) return fail("{}: is no PGM: its header is cut off", path);
-  }
-  stream.get();
-  GreyImage image{values[0], values[1], {}};
-  if (magic != "P5" || image.width < 1 || image.height < 1 || image.width > kLargestSide ||
-      image.height > kLargestSide || values[2] != 255) {
-    return fail("{}: must be a binary PGM (P5) with 255 grey levels and sides up to {} pixels", path, kLargestSide);
-  }
-  const auto begin = static_cast<std::size_t>(std::max<std::streamoff>(0, stream.tellg()));
-  const auto count = static_cast<std::size_t>(image.width) * image.height;
-  if (begin + count > bytes.size()) return fail("{}: is cut off", path);
-  image.pixels.assign(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
-                      bytes.begin() + static_cast<std::ptrdiff_t>(begin + count));
-  return image;
-}
-
-Result<GreyImage> read_png(const std::string& bytes, const std::string& path) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) return fail("{}: {}", path, png.message);
-  png.format = PNG_FORMAT_GRAY;
-  GreyImage image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
-  const auto count = static_cast<std::size_t>(png.width) * png.height;
-  // Deflate cannot do better than about 1 : 1032, nor a pixel with less than a bit: what claims more is damaged.
-  if (png.width > kLargestSide || png.height > kLargestSide || count / 9000 > bytes.size()) {
-    png_image_free(&png);
-    return fail("{}: is damaged, or larger than {} pixels a side", path, kLargestSide);
-  }
-  image.pixels.resize(count);
-  const png_color white{255, 255, 255};
-  if (png_image_finish_read(&png, &white, image.pixels.data(), 0, nullptr) == 0)
-    return fail("{}: {}", path, png.message);
-  return image;
-}
-
 std::string read_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The `key: value` lines of a MAP.yaml.
+std::string trimmed(const std::string& text) {
+  constexpr const char* kAround = " \t\r\"'";
+  const std::size_t begin = text.find_first_not_of(kAround);
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kAround) + 1 - begin);
+}
+
+/// The `key: value` lines of a MAP.yaml; a list that stands below its key, a line an item, becomes `[a, b, ...]`.
 std::map<std::string, std::string> read_keys(const std::string& text) {
   std::map<std::string, std::string> keys;
   std::istringstream stream(text);
   std::string line;
+  std::string last;
   while (std::getline(stream, line)) {
+    line = trimmed(line.substr(0, line.find(" #")));
+    if (line.starts_with("- ") && !last.empty()) {
+      std::string& list = keys[last];
+      list = (list.empty() ? "[" : list.substr(0, list.size() - 1) + ", ") + trimmed(line.substr(2)) + "]";
+      continue;
+    }
     const std::size_t colon = line.find(':');
     if (colon == std::string::npos || line[0] == '#') continue;
-    std::string value = line.substr(colon + 1);
-    value.erase(0, value.find_first_not_of(" \t\""));
-    value.erase(value.find_last_not_of(" \t\r\"") + 1);
-    keys[line.substr(0, colon)] = value;
+    last = trimmed(line.substr(0, colon));
+    keys[last] = trimmed(line.substr(colon + 1));
   }
   return keys;
 }
@@ -95,14 +49,16 @@ double number_or(const std::map<std::string, std::string>& keys, const std::stri
   return keys.contains(key) ? std::atof(keys.at(key).c_str()) : otherwise;
 }
 
-/// 1 where the image shows free floor; row 0 at the bottom.
+/// 1 where the image shows free floor; row 0 at the bottom. What map_server writes for unknown is solid even where
+/// free_thresh says that it is not (programs disagree about its default).
 std::vector<std::uint8_t> free_cells(const GreyImage& image, double free_below, bool negate) {
   std::vector<std::uint8_t> free(image.pixels.size());
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
-      const double grey = image.pixels[static_cast<std::size_t>(row) * image.width + column] / 255.0;
-      const double occupied = negate ? grey : 1 - grey;
-      free[static_cast<std::size_t>(image.height - 1 - row) * image.width + column] = occupied < free_below ? 1 : 0;
+      const std::uint8_t grey = image.pixels[static_cast<std::size_t>(row) * image.width + column];
+      const double occupied = negate ? grey / 255.0 : 1 - grey / 255.0;
+      const bool is_free = occupied < free_below && grey != kUnknownGrey;
+      free[static_cast<std::size_t>(image.height - 1 - row) * image.width + column] = is_free ? 1 : 0;
     }
   }
   return free;
@@ -133,8 +89,8 @@ void add_borders(const std::vector<std::uint8_t>& free, int width, int height, b
   }
 }
 
-/// The free cell that is farthest from all others (by city blocks): inside the building, in the open.
-int most_open_cell(const std::vector<std::uint8_t>& free, int width, int height) {
+/// By free cell, how far it is from all others (by city blocks), in cells.
+std::vector<int> measure_depth(const std::vector<std::uint8_t>& free, int width, int height) {
   std::vector<int> depth(free.size());
   const auto at = [&](int column, int row) {
     const bool inside = column >= 0 && row >= 0 && column < width && row < height;
@@ -148,7 +104,45 @@ int most_open_cell(const std::vector<std::uint8_t>& free, int width, int height)
     if (free[i] != 0)
       depth[i] = std::min(depth[i], 1 + std::min(at(i % width + 1, i / width), at(i % width, i / width + 1)));
   }
-  return static_cast<int>(std::max_element(depth.begin(), depth.end()) - depth.begin());
+  return depth;
+}
+
+/// The cells at least so deep that hang together with this one.
+std::vector<int> flood(const std::vector<int>& depth, int width, int height, int from, int at_least,
+                       std::vector<std::uint8_t>& seen) {
+  std::vector<int> cells{from};
+  seen[from] = 1;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const int column = cells[k] % width;
+    const int row = cells[k] / width;
+    const std::pair<bool, int> sides[] = {{column > 0, cells[k] - 1},
+                                          {column + 1 < width, cells[k] + 1},
+                                          {row > 0, cells[k] - width},
+                                          {row + 1 < height, cells[k] + width}};
+    for (const auto& [inside, next] : sides) {
+      if (!inside || seen[next] != 0 || depth[next] < at_least) continue;
+      seen[next] = 1;
+      cells.push_back(next);
+    }
+  }
+  return cells;
+}
+
+/// The deepest cell of the largest space that a robot can get about in: inside the building, in the open.
+int roomiest_cell(const std::vector<std::uint8_t>& free, int width, int height, double resolution) {
+  constexpr double kDoor = 0.6;  // a narrower one does not make one space of two, metres
+  const std::vector<int> depth = measure_depth(free, width, height);
+  const int deepest = *std::max_element(depth.begin(), depth.end());
+  const int passable = std::clamp(static_cast<int>(std::ceil(0.5 * kDoor / resolution)), 1, deepest);
+  std::vector<std::uint8_t> seen(depth.size(), 0);
+  std::vector<int> largest;
+  for (int i = 0; i < width * height; ++i) {
+    if (seen[i] != 0 || depth[i] < passable) continue;
+    std::vector<int> space = flood(depth, width, height, i, passable, seen);
+    if (space.size() > largest.size()) largest = std::move(space);
+  }
+  return *std::max_element(largest.begin(), largest.end(),
+                           [&](int a, int b) { return std::pair(depth[a], -a) < std::pair(depth[b], -b); });
 }
 
 }  // namespace
@@ -157,8 +151,7 @@ Result<World> parse_image_world(const std::string& yaml, const std::string& imag
   const auto keys = read_keys(yaml);
   const double resolution = number_or(keys, "resolution", 0);
   if (!(resolution > 0)) return fail("{}: needs the key `resolution`, metres a pixel", name);
-  const bool png = image_bytes.size() > 4 && std::memcmp(image_bytes.data() + 1, "PNG", 3) == 0;
-  const Result<GreyImage> image = png ? read_png(image_bytes, name) : read_pgm(image_bytes, name);
+  const Result<GreyImage> image = read_grey_image(image_bytes, name);
   if (!image) return tl::unexpected(image.error());
   double origin[3] = {};
   if (keys.contains("origin") &&
@@ -174,7 +167,7 @@ Result<World> parse_image_world(const std::string& yaml, const std::string& imag
   add_borders(free, image->width, image->height, false, resolution, lower_left, world.walls);
   if (world.walls.empty()) return fail("{}: the image holds no free cell beside a solid one", name);
   if (const Result<void> checked = check_size(world); !checked) return tl::unexpected(checked.error());
-  const int open = most_open_cell(free, image->width, image->height);
+  const int open = roomiest_cell(free, image->width, image->height, resolution);
   const int column = open % image->width;
   const int row = open / image->width;
   const Vector2d start = lower_left + resolution * Vector2d(column + 0.5, row + 0.5);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "helicoid/simulation/reachable_floor.hpp"
 #include "helicoid/simulation/simulator.hpp"
 
 namespace helicoid {
@@ -45,10 +46,19 @@ Result<LiveSimulation> LiveSimulation::make(const World& world, std::vector<Live
                   j + 1, i + 1, between, options.radius);
     }
   }
-  return LiveSimulation(world, std::move(robots), options);
+  std::vector<Vector2d> floor;
+  if (options.people > 0) {
+    std::vector<Pose2> starts(robots.size());
+    std::transform(robots.begin(), robots.end(), starts.begin(), [](const LiveRobot& r) { return r.T_world_start; });
+    const Result<ReachableFloor> reachable = find_reachable_floor(world, starts, {options.radius});
+    if (!reachable) return tl::unexpected(reachable.error());
+    floor = reachable->swept_centres();
+  }
+  return LiveSimulation(world, std::move(robots), options, std::move(floor));
 }
 
-LiveSimulation::LiveSimulation(const World& world, std::vector<LiveRobot> robots, const LiveOptions& options)
+LiveSimulation::LiveSimulation(const World& world, std::vector<LiveRobot> robots, const LiveOptions& options,
+                               std::vector<Vector2d> floor)
     : options_(options), plan_(std::move(robots)), walls_(world.walls), laser_(simulated_lms200()) {
   Random random(options.seed);
   const std::vector<double> materials = draw_materials(world.walls.size(), options.laser_noise, random.split());
@@ -60,8 +70,8 @@ LiveSimulation::LiveSimulation(const World& world, std::vector<LiveRobot> robots
     bodies_.push_back({robot.T_world_start, own, std::move(bias), odometer});
     starts.push_back({robot.T_world_start.translation(), options.radius});
   }
-  const auto at_a_start = [starts](Random& r) { return starts[r.below(starts.size())].centre; };
-  people_.emplace(walls_, options.people, at_a_start, random, starts);
+  const auto on_the_floor = [places = std::move(floor)](Random& r) { return places[r.below(places.size())]; };
+  people_.emplace(walls_, options.people, on_the_floor, random, starts);
   last_sighting_.assign(bodies_.size() * bodies_.size(), -std::numeric_limits<double>::infinity());
 }
 

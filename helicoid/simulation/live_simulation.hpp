@@ -98,7 +98,9 @@ class LiveSimulation {
     std::size_t index = 0;
     friend auto operator<=>(const Thing&, const Thing&) = default;
   };
-  LiveSimulation(const World& world, std::vector<LiveRobot> robots, const LiveOptions& options);
+  /// `floor`: places that people walk about.
+  LiveSimulation(const World& world, std::vector<LiveRobot> robots, const LiveOptions& options,
+                 std::vector<Vector2d> floor);
   [[nodiscard]] bool is_dead(std::size_t robot) const { return now() >= plan_[robot].dies_at; }
   void join_robots();
   void walk_people(double dt);

@@ -34,8 +34,8 @@ struct World {
 /// heading is the attribute data-yaw, in degrees anticlockwise in the world.
 [[nodiscard]] Result<World> parse_svg_world(const std::string& svg, const std::string& name);
 
-/// ROS map_server's MAP.yaml with a PGM or PNG image; what is not free is solid. Its start is where there is most room;
-/// it has no route (plan_tour makes one).
+/// ROS map_server's MAP.yaml with a PGM or PNG image; what is not free is solid. Its start is where there is most room
+/// in its largest space; it has no route (plan_tour makes one).
 [[nodiscard]] Result<World> read_image_world(const std::string& yaml_path);
 /// The same from the text of the YAML and the bytes of the image; `name` is what messages call it.
 [[nodiscard]] Result<World> parse_image_world(const std::string& yaml, const std::string& image_bytes,

@@ -122,6 +122,59 @@ TEST_F(ImageWorld, UnknownCellsAreSolidAndBordersAreJoined) {
   EXPECT_DOUBLE_EQ(walls.cast({0.5, -0.75}, {0, 1}, 50).distance, 0.75);
 }
 
+/// A PGM whose rows are drawn: '.' is free, '?' unknown, the rest solid.
+std::string drawn(const std::vector<std::string>& rows, bool in_words = false) {
+  std::string image = (in_words ? "P2\n" : "P5\n") + std::to_string(rows[0].size()) + " " +
+                      std::to_string(rows.size()) + (in_words ? "\n100\n" : "\n255\n");
+  for (const std::string& row : rows) {
+    for (const char c : row) {
+      if (in_words) {
+        image += c == '.' ? "100 " : "0 ";
+      } else {
+        image += static_cast<char>(c == '.' ? 254 : c == '?' ? 205 : 0);
+      }
+    }
+  }
+  return image;
+}
+
+TEST(ImageText, TheGreyOfTheUnknownIsSolidWhateverTheThreshold) {
+  const std::string image = drawn({"?????", "?...?", "?...?", "?????"});
+  const auto strict = parse_image_world("resolution: 0.5\nfree_thresh: 0.196\n", image, "m");
+  const auto loose = parse_image_world("resolution: 0.5\nfree_thresh: 0.25\n", image, "m");
+  ASSERT_TRUE(strict.has_value() && loose.has_value());
+  EXPECT_EQ(strict->walls.size(), 4U);
+  EXPECT_EQ(loose->walls.size(), 4U);
+}
+
+TEST(ImageText, WordsAndBytesAreTheSameImage) {
+  const std::vector<std::string> rows{"#####", "#...#", "##..#", "#####"};
+  const auto bytes = parse_image_world("resolution: 0.5\n", drawn(rows), "m");
+  const auto words = parse_image_world("resolution: 0.5\n", drawn(rows, true), "m");
+  ASSERT_TRUE(bytes.has_value() && words.has_value()) << words.error().message;
+  EXPECT_EQ(to_yaml(*bytes), to_yaml(*words));
+}
+
+TEST(ImageText, AnOriginMayBeAListBelowItsKey) {
+  const std::string image = drawn({"###", "#.#", "###"});
+  const auto line = parse_image_world("resolution: 0.5\norigin: [-1, 2.5, 0]\n", image, "m");
+  const auto list = parse_image_world("origin:\n- -1\n- 2.5\n- 0.0\nresolution: 0.5  # metres\n", image, "m");
+  ASSERT_TRUE(line.has_value() && list.has_value()) << list.error().message;
+  EXPECT_EQ(to_yaml(*line), to_yaml(*list));
+}
+
+TEST(ImageText, ItsStartIsInTheLargestSpaceNotInTheDeepestPocket) {
+  // At 0.5 m a pixel: a square pocket of 2.5 m, and a corridor 1.5 m wide and 10 m long.
+  const auto world = parse_image_world(
+      "resolution: 0.5\n",
+      drawn({"############################", "#.....#....................#", "#.....#....................#",
+             "#.....#....................#", "#.....######################", "#.....######################",
+             "############################"}),
+      "m");
+  ASSERT_TRUE(world.has_value());
+  EXPECT_GT(world->starts[0].x, 3.5);
+}
+
 TEST_F(ImageWorld, SaysWhatIsMissing) {
   EXPECT_THAT(read_image_world(write("image: room.pgm\n", 0)).error().message, testing::HasSubstr("resolution"));
   EXPECT_THAT(read_image_world(write("image: none.pgm\nresolution: 0.5\n", 0)).error().message,
