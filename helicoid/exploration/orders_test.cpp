@@ -43,7 +43,7 @@ TEST(Orders, ARegionIsForbiddenOnItsIslandWhereverAFitMovesIt) {
   builder.add(walls, {2, 3, 0});
   builder.add(walls, {5, 3, 1.5});
   Order forbid = order(OrderKind::forbid);
-  forbid.point = {PatchId{0}, {}};
+  forbid.point = {PatchId{0}, Vector2d::Zero()};
   forbid.region_patch = {{2, -1}, {4, -1}, {4, 1}, {2, 1}};
   OrderBook book;
   book.take(std::vector{forbid});
