@@ -45,20 +45,29 @@ void OpenEdges::update(const Map& map, const Neighbours& neighbours) {
     edge.open = edge.view->open_points();
     edge.T_plane_patch_compared = map.T_plane_patch(id);
   }
+  find_same_place(map);
   find_around(map, neighbours);
   forget_moved(map);
   for (std::size_t i = 0; i < edges_.size(); ++i) compare(map, i);
 }
 
+void OpenEdges::find_same_place(const Map& map) {
+  // What is known grows with the relations; poses that a fit moves change little about it.
+  if (same_place_.size() == map.patch_count() && relations_then_ == map.relations().size()) return;
+  same_place_ = find_neighbours(map, options_.same_place);
+  relations_then_ = map.relations().size();
+}
+
 void OpenEdges::find_around(const Map& map, const Neighbours& neighbours) {
-  const std::vector<PatchSet> two = within_two(neighbours);
+  std::vector<PatchSet> told_by = within_two(neighbours);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     Edge& edge = edges_[i];
     const Patch& patch = map.patch(make_id<PatchId>(i));
     const Vector2d at = map.T_plane_patch(patch.id).translation();
+    for (const PatchId other : same_place_[i]) told_by[i].insert(other.index());
     edge.around.clear();
     edge.near = PatchSet(edges_.size());
-    two[i].for_each([&](std::size_t k) {
+    told_by[i].for_each([&](std::size_t k) {
       const auto other = make_id<PatchId>(k);
       const double apart = (map.T_plane_patch(other).translation() - at).norm();
       if (apart > patch.free_reach + map.patch(other).reach + 2 * options_.beyond) return;
