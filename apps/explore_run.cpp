@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/interrupt_guard.hpp"
@@ -22,6 +23,19 @@ std::vector<std::size_t> all_of(std::size_t robots) {
   std::vector<std::size_t> all(robots);
   for (std::size_t i = 0; i < robots; ++i) all[i] = i;
   return all;
+}
+
+/// How many robots begin within three metres of an earlier one.
+std::size_t side_by_side(std::span<const LiveRobot> robots) {
+  constexpr double kSide = 3.0;
+  std::size_t beside = 0;
+  for (std::size_t i = 1; i < robots.size(); ++i) {
+    const auto earlier = robots.first(i);
+    beside += std::any_of(earlier.begin(), earlier.end(), [&](const LiveRobot& other) {
+      return (other.T_world_start.translation() - robots[i].T_world_start.translation()).norm() < kSide;
+    });
+  }
+  return beside;
 }
 
 /// What a run consists of while it goes on.
@@ -134,7 +148,7 @@ void Exploration::map_again(ExploreRun& run, const LaserModel& laser) const {
 ExploreRun Exploration::finish(const LaserModel& laser) {
   ExploreRun run(pilot_.release_mapper(), std::move(recording_));
   run.last_plan = pilot_.team_plan();
-  run.merges = pilot_.merges();
+  run.merges = pilot_.merges() - std::min(pilot_.merges(), side_by_side(job_.robots));
   run.operator_actions = operator_actions_;
   run.times = pilot_.times();
   const TeamPlan& plan = run.last_plan;

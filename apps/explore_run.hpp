@@ -37,7 +37,8 @@ struct ExploreRun {
   std::string end_state;
   std::string reason;
   std::vector<LiveSimulation::Contact> contacts;
-  std::size_t merges = 0;  ///< of islands, those of robots that start in sight of each other among them
+  /// Joins of islands whose robots began apart. Those that begin side by side see each other in the first seconds.
+  std::size_t merges = 0;
   std::size_t operator_actions = 0;
   double sim_s = 0;      ///< simulated seconds
   double sim_cpu_s = 0;  ///< CPU seconds of the simulation itself: no robot needs them

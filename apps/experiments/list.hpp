@@ -7,6 +7,7 @@ namespace helicoid {
 
 [[nodiscard]] Experiment calibration_experiment();
 [[nodiscard]] Experiment crispness_experiment();
+[[nodiscard]] Experiment fig6_experiment();
 [[nodiscard]] Experiment laps_experiment();
 [[nodiscard]] Experiment lies_experiment();
 [[nodiscard]] Experiment mrclam_experiment();
