@@ -49,12 +49,17 @@ double farthest_move(const Map& map, std::span<const Pose2> before) {
 
 void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
             const MapperOptions& options) {
-  constexpr int kRounds = 10;
   std::vector<PatchId> touched;
   for (const std::size_t entry : entries) {
     const std::vector<PatchId> tied = tie(progress, closer.ledger()[entry], options);
     touched.insert(touched.end(), tied.begin(), tied.end());
   }
+  spread(progress, closer, std::move(touched), options);
+}
+
+void spread(MapInProgress& progress, const LoopCloser& closer, std::vector<PatchId> touched,
+            const MapperOptions& options) {
+  constexpr int kRounds = 10;
   for (int round = 0; round < kRounds && !touched.empty(); ++round) {
     fit_islands(progress.map, progress.editor);
     // Later rounds move related patches by next to nothing: what their relations say of them stays.

@@ -12,6 +12,10 @@ namespace helicoid {
 void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
             const MapperOptions& options);
 
+/// Fits after these patches were newly tied, and relates what has become related until nothing is induced any more.
+void spread(MapInProgress& progress, const LoopCloser& closer, std::vector<PatchId> touched,
+            const MapperOptions& options);
+
 /// After patch b was kept: acts on what the closer accepts now, fits, and relates what has become related (eq. 16's
 /// queue) until nothing is induced any more. True if the map has changed.
 bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const LocalMap& known,

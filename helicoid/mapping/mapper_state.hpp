@@ -24,6 +24,7 @@ struct Mapper::State {
   MapperCounts counts;
   MapperTimes times;
   std::size_t patches_at_last_fit = 0;
+  std::size_t sightings_seen = 0;  ///< of those that were placed, by tie_on_sightings
   bool sighting_acted_on = false;
 
   Step step(const Event& event, const Scan& scan);

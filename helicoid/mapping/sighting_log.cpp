@@ -35,7 +35,11 @@ void ask_scans(const Map& map, const InformationGraph& graph, SightingRecord& re
   const IslandId here = map.island_of(record.observer_at.pose.patch);
   for (SeenCandidate& c : record.candidates) {
     const IslandId there = map.island_of(c.at.pose.patch);
-    if (here == there) continue;
+    if (here == there) {
+      c.observers_side = {record.observer};
+      c.observed_side = {c.robot};
+      continue;
+    }
     c.observers_side = robots_on(map, here);
     c.observed_side = robots_on(map, there);
     if (!T || c.ground.verdict != Verdict::silent) continue;
