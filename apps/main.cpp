@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   helicoid::add_map_verb(program, exit_code);
   helicoid::add_eval_verb(program, exit_code);
   helicoid::add_simulate_verb(program, exit_code);
+  helicoid::add_explore_verb(program, exit_code);
   helicoid::add_fit_verb(program, exit_code);
   helicoid::add_ledger_verb(program, exit_code);
   helicoid::add_explain_verb(program, exit_code);

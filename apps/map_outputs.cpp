@@ -89,8 +89,8 @@ void write_sheets(const Map& map, const IslandReport& report, const std::string&
   }
 }
 
-SketchDrawing draw_sketch(const Map& map, const MapReport& report, const IslandReport& island,
-                          const SheetStack& stacked) {
+SketchDrawing sketch_of(const Map& map, const MapReport& report, const IslandReport& island,
+                        const SheetStack& stacked) {
   SketchDrawing drawing;
   drawing.layers.push_back({"free space", make_sketch(stacked.grid)});
   drawing.ways = ways_over(map, island.island.patches);
@@ -104,7 +104,7 @@ void write_island(const Map& map, const MapReport& report, const IslandReport& i
   fs::create_directories(folder, error);
   const GridFrame frame = frame_around(map, island.island.patches);
   const SheetStack stacked = draw_stack(map, island.island.patches, island.sheets, frame, threads);
-  const SketchDrawing sketch = draw_sketch(map, report, island, stacked);
+  const SketchDrawing sketch = sketch_of(map, report, island, stacked);
   PictureOptions options;
   options.sheets = island.sheets.count;
   options.title = fmt::format("{}", fmt::join(island.robots, ", "));
@@ -116,6 +116,11 @@ void write_island(const Map& map, const MapReport& report, const IslandReport& i
 }
 
 }  // namespace
+
+SketchDrawing draw_sketch(const Map& map, const MapReport& report, const IslandReport& island, int threads) {
+  const GridFrame frame = frame_around(map, island.island.patches);
+  return sketch_of(map, report, island, draw_stack(map, island.island.patches, island.sheets, frame, threads));
+}
 
 MapReport report_on(const Map& map, bool drawn) {
   MapReport report{find_neighbours(map), {}};

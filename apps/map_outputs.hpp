@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/map_run.hpp"
+#include "helicoid/charts/sketch_svg.hpp"
 #include "helicoid/manifold/neighbours.hpp"
 #include "helicoid/manifold/sheets.hpp"
 
@@ -28,6 +29,9 @@ struct MapReport {
 
 /// map.gpkg, graph.g2o, ledger.json and the trajectories; `online_only`: every pose as it was first reported.
 [[nodiscard]] Result<void> write_records(const MapRun& run, const std::string& folder, bool online_only);
+/// Free space, ways and topology of one island (the paper's fig. 6c) of a report that is to be drawn.
+[[nodiscard]] SketchDrawing draw_sketch(const Map& map, const MapReport& report, const IslandReport& island,
+                                        int threads);
 /// map.png, map.pgm, map.yaml, sketch.svg, topology.geojson; further islands and sheets in folders of their own.
 /// Returns the pictures' paths.
 [[nodiscard]] Result<std::vector<std::string>> write_charts(const Map& map, const MapReport& report,

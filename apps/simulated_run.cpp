@@ -10,14 +10,78 @@ namespace {
 
 constexpr std::size_t kScansInMost = std::size_t{1} << 16U;
 
+/// The events of several days as one log: stamps and odometry go on where they ended the evening before.
+class Days {
+ public:
+  Days(std::span<const World> worlds, const SimulationOptions& options)
+      : worlds_(worlds), options_(options), evening_(static_cast<std::size_t>(options.robots)) {}
+
+  Result<std::optional<SimulatedEvent>> next() {
+    for (;;) {
+      if (simulator_) {
+        if (std::optional<SimulatedEvent> event = simulator_->next()) return continued(std::move(*event));
+        simulator_.reset();
+        ++day_;
+      }
+      if (day_ == worlds_.size()) return std::optional<SimulatedEvent>{};
+      SimulationOptions today = options_;
+      today.seed += 1000003 * day_;
+      Result<Simulator> made = Simulator::make(worlds_[day_], today);
+      if (!made) return tl::unexpected(made.error());
+      simulator_ = std::move(*made);
+      for (Evening& e : evening_) e.is_morning = true;
+      night_ = last_stamp_;
+    }
+  }
+
+ private:
+  /// Where a robot truly stood and what its odometry said when it was last heard of.
+  struct Evening {
+    Pose2 T_world_robot, T_odom_robot;
+    Pose2 T_odom_today;  ///< from today's odometry to that of all days
+    bool is_morning = true;
+  };
+
+  SimulatedEvent continued(SimulatedEvent simulated) {
+    Evening& e = evening_[simulated.event.robot.index()];
+    if (day_ > 0) simulated.event.stamp += night_ - kFirstStamp + 1;
+    simulated.lap += static_cast<int>(day_) * options_.laps;
+    last_stamp_ = std::max(last_stamp_, simulated.event.stamp);
+    if (auto* scan = std::get_if<Scan>(&simulated.event.body)) {
+      if (day_ > 0 && e.is_morning) {
+        const Pose2 T_then_now = e.T_world_robot.inverse() * simulated.T_world_robot;
+        e.T_odom_today = e.T_odom_robot * T_then_now * scan->T_odom_robot.inverse();
+      }
+      e.is_morning = false;
+      scan->T_odom_robot = e.T_odom_today * scan->T_odom_robot;
+      e.T_odom_robot = scan->T_odom_robot;
+      e.T_world_robot = simulated.T_world_robot;
+    }
+    return simulated;
+  }
+
+  static constexpr double kFirstStamp = 1000;  ///< of every simulation, seconds
+  std::span<const World> worlds_;
+  SimulationOptions options_;
+  std::vector<Evening> evening_;
+  std::optional<Simulator> simulator_;
+  std::size_t day_ = 0;
+  double last_stamp_ = 0, night_ = 0;
+};
+
 }  // namespace
 
 Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions& simulation,
                                     const MapperOptions& mapper, const SimulationObserver& observer,
                                     const SimulationFilter& filter) {
-  Result<Simulator> simulator = Simulator::make(world, simulation);
-  if (!simulator) return tl::unexpected(simulator.error());
-  const Result<LaserModel> laser = load_laser("sick-lms200", simulator->laser());
+  return map_days({&world, 1}, simulation, mapper, observer, filter);
+}
+
+Result<SimulatedRun> map_days(std::span<const World> worlds, const SimulationOptions& simulation,
+                              const MapperOptions& mapper, const SimulationObserver& observer,
+                              const SimulationFilter& filter) {
+  Days days(worlds, simulation);
+  const Result<LaserModel> laser = load_laser("sick-lms200", simulated_lms200());
   if (!laser) return tl::unexpected(laser.error());
   SimulatedRun run{Mapper(mapper), {}, 0};
   for (std::size_t i = 0; i < static_cast<std::size_t>(simulation.robots); ++i) {
@@ -27,17 +91,21 @@ Result<SimulatedRun> map_simulation(const World& world, const SimulationOptions&
     track.stamps.reserve(kScansInMost);
     track.T_world_robot.reserve(kScansInMost);
   }
-  while (const std::optional<SimulatedEvent> simulated = simulator->next()) {
-    if (filter && !filter(*simulated, run.mapper)) continue;
+  for (;;) {
+    const Result<std::optional<SimulatedEvent>> simulated = days.next();
+    if (!simulated) return tl::unexpected(simulated.error());
+    if (!*simulated) break;
+    if (filter && !filter(**simulated, run.mapper)) continue;
+    const Event& event = (*simulated)->event;
     const double before = thread_cpu_seconds();
-    const Step step = run.mapper.process(simulated->event);
+    const Step step = run.mapper.process(event);
     run.cpu_s += thread_cpu_seconds() - before;
-    if (std::holds_alternative<Scan>(simulated->event.body)) {
-      TrueTrack& track = run.tracks[simulated->event.robot.index()];
-      track.stamps.push_back(simulated->event.stamp);
-      track.T_world_robot.push_back(simulated->T_world_robot);
+    if (std::holds_alternative<Scan>(event.body)) {
+      TrueTrack& track = run.tracks[event.robot.index()];
+      track.stamps.push_back(event.stamp);
+      track.T_world_robot.push_back((*simulated)->T_world_robot);
     }
-    if (observer) observer(*simulated, step, run.mapper);
+    if (observer) observer(**simulated, step, run.mapper);
   }
   const double before = thread_cpu_seconds();
   run.mapper.finish();

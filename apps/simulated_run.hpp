@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "helicoid/eval/relation_error.hpp"
@@ -35,6 +36,13 @@ using SimulationFilter = std::function<bool(const SimulatedEvent&, const Mapper&
                                                   const MapperOptions& mapper = {},
                                                   const SimulationObserver& observer = {},
                                                   const SimulationFilter& filter = {});
+
+/// The same in a building that changes from one day to the next: on each world in turn the robots drive their laps, and
+/// start where they did the day before. Stamps and odometry go on; the noise is drawn anew. Worlds whose routes are the
+/// same.
+[[nodiscard]] Result<SimulatedRun> map_days(std::span<const World> days, const SimulationOptions& simulation,
+                                            const MapperOptions& mapper = {}, const SimulationObserver& observer = {},
+                                            const SimulationFilter& filter = {});
 
 /// How many sheets each island has, by id.
 [[nodiscard]] std::vector<int> count_sheets(const Map& map);

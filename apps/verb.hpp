@@ -18,6 +18,7 @@ inline constexpr int kNotAsAsked = 3;
 void add_map_verb(CLI::App& program, int& exit_code);
 void add_eval_verb(CLI::App& program, int& exit_code);
 void add_simulate_verb(CLI::App& program, int& exit_code);
+void add_explore_verb(CLI::App& program, int& exit_code);
 void add_fit_verb(CLI::App& program, int& exit_code);
 void add_info_verb(CLI::App& program, int& exit_code);
 void add_plot_verb(CLI::App& program, int& exit_code);

@@ -1,43 +1,23 @@
 // Is any wall drawn twice on one sheet?
-#include "helicoid/charts/crispness.hpp"
-
 #include "apps/experiments/list.hpp"
 #include "apps/experiments/recorded_data.hpp"
 #include "apps/map_run.hpp"
+#include "apps/sheet_crispness.hpp"
 #include "apps/simulated_run.hpp"
-#include "helicoid/manifold/sheets.hpp"
 
 namespace helicoid {
 
 namespace {
 
-/// Sheet by sheet: what lies on another sheet is another place, and no twin.
 Outcome measure(const Map& map) {
-  Crispness total;
-  int sheets = 0;
-  const Neighbours neighbours = find_neighbours(map);
-  for (const Island& island : map.islands()) {
-    const Sheets on = find_sheets(map, neighbours, island);
-    sheets = std::max(sheets, on.count);
-    const int drawn = 1 + *std::max_element(on.sheet_of.begin(), on.sheet_of.end());
-    for (int sheet = 0; sheet < drawn; ++sheet) {
-      std::vector<PatchId> patches;
-      for (const PatchId id : island.patches) {
-        if (on.sheet_of[id.index()] == sheet) patches.push_back(id);
-      }
-      const Crispness c = measure_crispness(map, patches, draw_occupancy(map, patches, frame_around(map, patches)));
-      total.occupied += c.occupied;
-      total.twins += c.twins;
-      total.seen_at_once += c.seen_at_once;
-    }
-  }
+  const SheetCrispness all = crispness_by_sheet(map);
   const auto percent = [&](std::size_t cells) {
-    return total.occupied > 0 ? 100.0 * static_cast<double>(cells) / static_cast<double>(total.occupied) : 0;
+    return all.total.occupied > 0 ? 100.0 * static_cast<double>(cells) / static_cast<double>(all.total.occupied) : 0;
   };
-  return {{{"twins_percent", percent(total.twins)},
-           {"seen_at_once_percent", percent(total.seen_at_once)},
-           {"occupied_cells", static_cast<double>(total.occupied)},
-           {"sheets_count", static_cast<double>(sheets)},
+  return {{{"twins_percent", percent(all.total.twins)},
+           {"seen_at_once_percent", percent(all.total.seen_at_once)},
+           {"occupied_cells", static_cast<double>(all.total.occupied)},
+           {"sheets_count", static_cast<double>(all.sheets)},
            {"patches_count", static_cast<double>(map.patch_count())}},
           {}};
 }

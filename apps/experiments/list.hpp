@@ -5,8 +5,10 @@
 
 namespace helicoid {
 
+[[nodiscard]] Experiment buildings_experiment();
 [[nodiscard]] Experiment calibration_experiment();
 [[nodiscard]] Experiment crispness_experiment();
+[[nodiscard]] Experiment fig6_experiment();
 [[nodiscard]] Experiment laps_experiment();
 [[nodiscard]] Experiment lies_experiment();
 [[nodiscard]] Experiment mrclam_experiment();

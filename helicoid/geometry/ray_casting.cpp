@@ -12,11 +12,16 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Bounds the memory of a grid over a world that is spread wide.
 constexpr double kMostCellsASide = 500;
 
-double point_distance(const Vector2d& p, const Segment& s) {
+/// From the point of a segment that is nearest to p.
+Vector2d offset_from(const Vector2d& p, const Segment& s) {
   const Vector2d along = s.to - s.from;
   const double square = along.squaredNorm();
   const double at = square > 0 ? std::clamp((p - s.from).dot(along) / square, 0.0, 1.0) : 0;
-  return (p - s.from - at * along).norm();
+  return p - s.from - at * along;
+}
+
+double point_distance(const Vector2d& p, const Segment& s) {
+  return offset_from(p, s).norm();
 }
 
 /// Where along a ray it enters and leaves the box from the origin to `extent`; enter > leave if it misses.
@@ -48,6 +53,10 @@ double intersect(const Vector2d& origin, const Vector2d& direction, const Segmen
   const double t = (offset.x() * along.y() - offset.y() * along.x()) / cross;
   const double u = (offset.x() * direction.y() - offset.y() * direction.x()) / cross;
   return t >= 0 && u >= 0 && u <= 1 ? t : kInfinity;
+}
+
+Vector2d nearest_point(const Vector2d& point, const Segment& segment) {
+  return point - offset_from(point, segment);
 }
 
 RayCaster::RayCaster(std::span<const Segment> segments, double cell)
@@ -131,18 +140,21 @@ RayCaster::Hit RayCaster::cast(const Vector2d& origin, const Vector2d& direction
   return hit;
 }
 
-double RayCaster::clearance(const Vector2d& point, double reach) const {
-  double best = kInfinity;
+RayCaster::Hit RayCaster::nearest(const Vector2d& point, double reach) const {
+  Hit best{kInfinity, -1};
   const Vector2d low = (point - Vector2d::Constant(reach) - origin_) / cell_;
   const Vector2d high = (point + Vector2d::Constant(reach) - origin_) / cell_;
   for (int row = std::max(0, static_cast<int>(std::floor(low.y())));
        row <= std::min(rows_ - 1, static_cast<int>(high.y())); ++row) {
     for (int column = std::max(0, static_cast<int>(std::floor(low.x())));
          column <= std::min(columns_ - 1, static_cast<int>(high.x())); ++column) {
-      for (const int i : in_cell(column, row)) best = std::min(best, point_distance(point, segments_[i]));
+      for (const int i : in_cell(column, row)) {
+        const double distance = point_distance(point, segments_[i]);
+        if (distance < best.distance) best = {distance, i};
+      }
     }
   }
-  return best <= reach ? best : kInfinity;
+  return best.distance <= reach ? best : Hit{kInfinity, -1};
 }
 
 }  // namespace helicoid

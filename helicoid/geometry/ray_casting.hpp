@@ -15,6 +15,9 @@ struct Segment {
 /// The smallest distance along a ray at which it meets a segment, or infinity. `direction` is a unit vector.
 [[nodiscard]] double intersect(const Vector2d& origin, const Vector2d& direction, const Segment& segment);
 
+/// The point of a segment that is nearest to another one.
+[[nodiscard]] Vector2d nearest_point(const Vector2d& point, const Segment& segment);
+
 /// Segments sorted into square cells; immutable. Coordinates are finite.
 class RayCaster {
  public:
@@ -27,8 +30,10 @@ class RayCaster {
   };
   /// The first segment that a ray meets within `reach` metres.
   [[nodiscard]] Hit cast(const Vector2d& origin, const Vector2d& direction, double reach) const;
+  /// The segment nearest to a point, looked for within `reach`.
+  [[nodiscard]] Hit nearest(const Vector2d& point, double reach) const;
   /// The smallest distance from a point to any segment, looked for within `reach`; infinity if none is that near.
-  [[nodiscard]] double clearance(const Vector2d& point, double reach) const;
+  [[nodiscard]] double clearance(const Vector2d& point, double reach) const { return nearest(point, reach).distance; }
   [[nodiscard]] std::span<const Segment> segments() const { return segments_; }
 
  private:

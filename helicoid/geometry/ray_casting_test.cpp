@@ -44,6 +44,23 @@ TEST(RayCaster, ClearanceIsTheDistanceToTheNearestSegment) {
   EXPECT_TRUE(std::isinf(caster.clearance({3, 2}, 1)));
 }
 
+TEST(RayCaster, TheNearestPointOfTheNearestSegmentIsAtItsClearance) {
+  Random random(3);
+  std::vector<Segment> segments;
+  for (int i = 0; i < 50; ++i) {
+    const Vector2d from(random.uniform(-20, 20), random.uniform(-10, 10));
+    segments.push_back({from, from + Vector2d(random.uniform(-4, 4), random.uniform(-4, 4))});
+  }
+  const RayCaster caster(segments);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector2d p(random.uniform(-25, 25), random.uniform(-15, 15));
+    const RayCaster::Hit hit = caster.nearest(p, 100);
+    ASSERT_GE(hit.segment, 0);
+    ASSERT_NEAR((nearest_point(p, segments[hit.segment]) - p).norm(), hit.distance, 1e-12);
+    for (const Segment& s : segments) ASSERT_GE((nearest_point(p, s) - p).norm(), hit.distance - 1e-12);
+  }
+}
+
 TEST(RayCaster, AnEmptyWorldHasNoHits) {
   EXPECT_EQ(RayCaster({}).cast({0, 0}, {1, 0}, 50).segment, -1);
 }

@@ -32,17 +32,23 @@ std::vector<PatchId> patches_before(const Map& map, PatchId b, const LookAlikeOp
   return patches;
 }
 
-/// Their points in b's frame.
-ScanPoints points_of_place(const Map& map, PatchId b, std::span<const PatchId> patches) {
+/// Patches as seen from b.
+std::vector<LocalPatch> views_of_place(const Map& map, PatchId b, std::span<const PatchId> place) {
+  std::vector<LocalPatch> views;
+  for (const PatchId id : place) views.push_back({id, map.T_plane_patch(b).inverse() * map.T_plane_patch(id)});
+  return views;
+}
+
+/// The points of views in the frame that these are given in.
+ScanPoints points_of(const Map& map, std::span<const LocalPatch> views) {
   std::size_t all = 0;
-  for (const PatchId id : patches) all += map.patch(id).points.size();
+  for (const LocalPatch& view : views) all += map.patch(view.patch).points.size();
   const std::size_t stride = std::max<std::size_t>(1, all / kPlacePoints);
   ScanPoints place;
-  for (const PatchId id : patches) {
-    const Pose2 T_b_patch = map.T_plane_patch(b).inverse() * map.T_plane_patch(id);
-    const Eigen::Matrix2f rotation = T_b_patch.rotation().cast<float>();
-    const Eigen::Vector2f offset = T_b_patch.translation().cast<float>();
-    const ScanPoints& points = map.patch(id).points;
+  for (const LocalPatch& view : views) {
+    const Eigen::Matrix2f rotation = view.T_anchor_patch.rotation().cast<float>();
+    const Eigen::Vector2f offset = view.T_anchor_patch.translation().cast<float>();
+    const ScanPoints& points = map.patch(view.patch).points;
     for (std::size_t i = 0; i < points.size(); i += stride) {
       if (points.weight[i] <= 0) continue;
       const Eigen::Vector2f p = rotation * Eigen::Vector2f(points.x[i], points.y[i]) + offset;
@@ -59,9 +65,9 @@ ScanPoints points_of_place(const Map& map, PatchId b, std::span<const PatchId> p
   return place;
 }
 
-/// Share of the points (in b's frame) that lie deep in free space of one of the views.
-double contradicted_share(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
-                          const Pose2& T_a_b) {
+/// Which points (in b's frame) lie deep in free space of one of the views.
+std::vector<bool> seen_through(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
+                               const Pose2& T_a_b) {
   std::vector<SeenFree> seen_free;
   std::vector<Pose2> T_view_b;
   seen_free.reserve(views.size());
@@ -70,16 +76,47 @@ double contradicted_share(const Map& map, std::span<const LocalPatch> views, con
     seen_free.emplace_back(map.patch(view.patch));
     T_view_b.push_back(view.T_anchor_patch.inverse() * T_a_b);
   }
-  std::size_t inside = 0;
+  std::vector<bool> inside(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector2d p_b(points.x[i], points.y[i]);
-    for (std::size_t k = 0; k < seen_free.size(); ++k) {
-      if (!seen_free[k].is_deep((T_view_b[k] * p_b).cast<float>(), kDeep)) continue;
-      ++inside;
-      break;
+    for (std::size_t k = 0; k < seen_free.size() && !inside[i]; ++k) {
+      inside[i] = seen_free[k].is_deep((T_view_b[k] * p_b).cast<float>(), kDeep);
     }
   }
-  return points.size() > 0 ? static_cast<double>(inside) / static_cast<double>(points.size()) : 0;
+  return inside;
+}
+
+/// What stood still while the views were taken: what none of them saw through.
+ScanPoints standing_points(const Map& map, std::span<const LocalPatch> views) {
+  ScanPoints points = points_of(map, views);
+  const std::vector<bool> moved = seen_through(map, views, points, Pose2{});
+  for (std::size_t i = 0; i < points.size(); ++i) points.weight[i] = moved[i] ? 0 : points.weight[i];
+  return points;
+}
+
+/// What is compared: what was seen about b, and what was seen about a.
+struct TwoPlaces {
+  std::vector<LocalPatch> views_a, views_b;  ///< in a's and in b's frame
+  ScanPoints points_a, points_b;             ///< the same
+  Reference reference;                       ///< of a's surfaces
+  AlignOptions align;
+};
+
+/// The share of the points of either that lie deep in what was seen as free about the other, of that which has more:
+/// what stood there only then, and what stands there only now. What does not stand still tells nothing.
+double contradicted_share(const Map& map, const TwoPlaces& places, const Pose2& T_a_b) {
+  const auto share = [&](const std::vector<LocalPatch>& views, const ScanPoints& points, const Pose2& T) {
+    const std::vector<bool> inside = seen_through(map, views, points, T);
+    std::size_t standing = 0, against = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points.weight[i] <= 0) continue;
+      ++standing;
+      against += inside[i] ? 1 : 0;
+    }
+    return standing > 0 ? static_cast<double>(against) / static_cast<double>(standing) : 0.0;
+  };
+  return std::max(share(places.views_a, places.points_b, T_a_b),
+                  share(places.views_b, places.points_a, T_a_b.inverse()));
 }
 
 double window_of(const UncertainPose2& T, const LookAlikeOptions& options) {
@@ -100,7 +137,7 @@ PlaceWindow window_about(const Candidate& candidate, const LookAlikeOptions& opt
 }  // namespace
 
 ScanPoints points_about(const Map& map, PatchId b, const LookAlikeOptions& options) {
-  return points_of_place(map, b, patches_before(map, b, options));
+  return points_of(map, views_of_place(map, b, patches_before(map, b, options)));
 }
 
 std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& graph, PatchId b,
@@ -137,44 +174,117 @@ std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& g
   return candidates;
 }
 
+namespace {
+
+TwoPlaces look_at(const Map& map, const InformationGraph& graph, const Candidate& candidate, PatchId b,
+                  const MapperOptions& mapper, const LookAlikeOptions& options) {
+  TwoPlaces places;
+  const std::vector<PatchId> place = patches_before(map, b, options);
+  places.views_b = views_of_place(map, b, place);
+  places.points_b = standing_points(map, places.views_b);
+  const bool wide = window_about(candidate, options).half_width > options.wide;
+  MapperOptions surroundings = mapper;
+  if (wide) surroundings.local_radius = options.wide_reach;
+  LocalMap local = find_local_map(map, graph, candidate.a, surroundings);
+  std::erase_if(local, [&](const LocalPatch& p) { return std::count(place.begin(), place.end(), p.patch) > 0; });
+  places.views_a = nearest_views(local, Pose2{}, wide ? options.wide_views : options.views);
+  places.points_a = standing_points(map, places.views_a);
+  places.reference.build(reference_parts(map, places.views_a));
+  places.align = align_options(map.patch(b).laser);
+  places.align.kappa *= static_cast<double>(place.size());
+  return places;
+}
+
+/// One way in which the two may lie.
+struct Fit {
+  Alignment alignment;
+  double contradicted = 0;
+  bool usable = false;
+  /// What speaks for it, less what speaks against it.
+  [[nodiscard]] double merit(const LookAlikeOptions& options) const {
+    return usable ? alignment.inlier_share * (1 - contradicted / options.most_contradicted) : 0;
+  }
+};
+
+Fit fit_from(const Map& map, const TwoPlaces& places, const PosePrior& prior, const LookAlikeOptions& options) {
+  Fit fit;
+  fit.alignment = align_scan(places.reference, places.points_b, prior, places.align);
+  if (!fit.alignment.usable() || fit.alignment.inlier_share < options.least_score) return fit;
+  fit.contradicted = contradicted_share(map, places, fit.alignment.T_reference_scan);
+  fit.usable = fit.contradicted < options.most_contradicted;
+  return fit;
+}
+
+/// The best fit, and the best of those apart from it.
+struct Fits {
+  Fit best, second;
+  void prefer_better(const LookAlikeOptions& options) {
+    if (second.merit(options) > best.merit(options)) std::swap(best, second);
+  }
+};
+
+Fits search(const Map& map, const TwoPlaces& places, const PlaceWindow& window, const LookAlikeOptions& options) {
+  const PlaceSearch found = search_place(places.reference, places.points_b, window);
+  const auto fit_at = [&](const Placement& placement) {
+    if (placement.score <= 0) return Fit{};
+    return fit_from(map, places, {placement.T_reference_scan, 1e-3 * Matrix3d::Identity()}, options);
+  };
+  Fits fits{fit_at(found.best), fit_at(found.second)};
+  fits.prefer_better(options);
+  return fits;
+}
+
+/// What fits near where the map has it is believed before what fits at the window's edge; but that is a rival.
+Fits search_from_middle(const Map& map, const TwoPlaces& places, const Candidate& candidate,
+                        const LookAlikeOptions& options) {
+  const PlaceWindow whole = window_about(candidate, options);
+  if (whole.half_width <= options.wide) return search(map, places, whole, options);
+  PlaceWindow middle = whole;
+  middle.half_width = std::max(options.wide, whole.half_width / options.sigmas);
+  Fits fits = search(map, places, middle, options);
+  Fits far = search(map, places, whole, options);
+  if (!fits.best.usable) return far;
+  for (const Fit& other : {far.best, far.second}) {
+    const Pose2 apart = fits.best.alignment.T_reference_scan.inverse() * other.alignment.T_reference_scan;
+    const bool is_other = apart.distance() > whole.apart || std::abs(apart.yaw) > whole.turned_apart;
+    if (is_other && other.merit(options) > fits.second.merit(options)) fits.second = other;
+  }
+  if (fits.second.merit(options) > options.far_more * fits.best.merit(options)) std::swap(fits.best, fits.second);
+  return fits;
+}
+
+}  // namespace
+
+double merit_of(const Hypothesis& h, const LookAlikeOptions& options) {
+  return h.score * std::max(0.0, 1 - h.contradicted / options.most_contradicted);
+}
+
 std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph& graph, const Candidate& candidate,
                                          PatchId b, const MapperOptions& mapper, const LookAlikeOptions& options) {
-  const std::vector<PatchId> place = patches_before(map, b, options);
-  const ScanPoints points = points_of_place(map, b, place);
-  LocalMap local = find_local_map(map, graph, candidate.a, mapper);
-  std::erase_if(local, [&](const LocalPatch& p) { return std::count(place.begin(), place.end(), p.patch) > 0; });
-  const std::vector<LocalPatch> views = nearest_views(local, Pose2{}, options.views);
-  Reference reference;
-  reference.build(reference_parts(map, views));
-
-  const LaserModel& laser = map.patch(b).laser;
-  AlignOptions align = align_options(laser);
-  align.kappa *= static_cast<double>(place.size());
-  double ambiguity = 0;
-  PosePrior prior{candidate.T_a_b.T_a_b, candidate.T_a_b.covariance.inverse()};
+  const TwoPlaces places = look_at(map, graph, candidate, b, mapper, options);
+  Fits fits;
   if (confidence_interval(candidate.T_a_b.covariance).position > options.narrow) {
-    const PlaceSearch found = search_place(reference, points, window_about(candidate, options));
-    if (found.best.score <= 0) return std::nullopt;
-    ambiguity = found.second.score / found.best.score;
-    prior = {found.best.T_reference_scan, 1e-3 * Matrix3d::Identity()};
+    fits = search_from_middle(map, places, candidate, options);
+  } else {
+    fits.best = fit_from(map, places, {candidate.T_a_b.T_a_b, candidate.T_a_b.covariance.inverse()}, options);
   }
-  const Alignment alignment = align_scan(reference, points, prior, align);
-  if (!alignment.usable() || alignment.inlier_share < options.least_score) return std::nullopt;
-  if (alignment.status == AlignStatus::degenerate && ambiguity > 0) return std::nullopt;
-  const double contradicted = contradicted_share(map, views, points, alignment.T_reference_scan);
-  if (contradicted > options.most_contradicted) return std::nullopt;
+  const Fit& best = fits.best;
+  if (!best.usable) return std::nullopt;
+  const Alignment& alignment = best.alignment;
 
   Hypothesis h;
   h.a = candidate.a;
   h.b = b;
+  h.ambiguity = std::min(1.0, fits.second.merit(options) / best.merit(options));
+  if (alignment.status == AlignStatus::degenerate && h.ambiguity > 0) return std::nullopt;
   h.T_a_b.T_a_b = alignment.T_reference_scan;
-  h.T_a_b.covariance = (alignment.information / align.kappa + 1e-3 * Matrix3d::Identity()).inverse();
+  h.T_a_b.covariance = (alignment.information / places.align.kappa + 1e-3 * Matrix3d::Identity()).inverse();
   const LaserModel& laser_a = map.patch(candidate.a).laser;
+  const LaserModel& laser_b = map.patch(b).laser;
   h.T_a_b.covariance = with_noise_floor(h.T_a_b, noise_floor(laser_a.floor_position, laser_a.floor_heading),
-                                        noise_floor(laser.floor_position, laser.floor_heading));
+                                        noise_floor(laser_b.floor_position, laser_b.floor_heading));
   h.score = alignment.inlier_share;
-  h.ambiguity = ambiguity;
-  h.contradicted = contradicted;
+  h.contradicted = best.contradicted;
   return h;
 }
 

@@ -11,14 +11,19 @@ namespace helicoid {
 
 struct LookAlikeOptions {
   double narrow = 0.5;         ///< if the map knows it this well (eq. 10), the match starts from there, metres
-  double widest = 8;           ///< windows are never wider, metres
+  double widest = 20;          ///< windows are never wider, metres
   double widest_turn = 0.7;    ///< radians
   double sigmas = 3;           ///< the window's half-width, in standard deviations
   double drift_inflation = 2;  ///< of the stated deviations: drift is not all random
   double place_reach = 5;      ///< the way whose patches make up the place, metres
   std::size_t place_patches = 5;
-  std::size_t views = 8;  ///< patches about the candidate that it is compared with
-  std::size_t candidates = 2;
+  std::size_t views = 8;   ///< patches about the candidate that it is compared with
+  double wide = 3;         ///< a window of this half-width is searched near its middle first, metres
+  double wide_reach = 12;  ///< and what lies so far about the candidate is compared, metres
+  std::size_t wide_views = 20;
+  double far_more =
+      1.5;  ///< what lies at the edge of such a window is believed first if it has this many times the merit
+  std::size_t candidates = 4;
   double least_search_score = 0.6;
   double least_score = 0.62;  ///< inlier share of an alignment
   double most_contradicted = 0.12;
@@ -43,5 +48,8 @@ struct Candidate {
 [[nodiscard]] std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph& graph,
                                                        const Candidate& candidate, PatchId b,
                                                        const MapperOptions& mapper, const LookAlikeOptions& options);
+
+/// What speaks for an entry, less what speaks against it: 0..1.
+[[nodiscard]] double merit_of(const Hypothesis& h, const LookAlikeOptions& options);
 
 }  // namespace helicoid

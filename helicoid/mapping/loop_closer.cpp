@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "helicoid/manifold/confidence.hpp"
 
@@ -77,16 +78,39 @@ std::vector<std::size_t> LoopCloser::look_about(const Map& map, const Informatio
   BoundOptions everything = bound_options(map.patch(b), 1e3, 1e3, 1e9);
   everything.most = map.patch_count();
   const std::vector<BoundedPose> about_b = tree_bound(graph, map.poses(), b.value, everything);
-  std::vector<std::size_t> accepted;
+  std::vector<Hypothesis> found;
   for (const Candidate& candidate : find_candidates(map, graph, b, about_b, known, options)) {
-    std::optional<Hypothesis> found = compare_places(map, graph, candidate, b, mapper_, options);
-    if (!found) continue;
-    found->reason = kWaits;
+    if (std::optional<Hypothesis> h = compare_places(map, graph, candidate, b, mapper_, options)) {
+      h->reason = kWaits;
+      found.push_back(std::move(*h));
+    }
+  }
+  compare_with_one_another(map, graph, found);
+  std::vector<std::size_t> accepted;
+  for (Hypothesis& h : found) {
     const std::vector<std::size_t> now =
-        enter(map, graph, about_b, std::move(*found), {options_.least_agreeing, options_.least_way});
+        enter(map, graph, about_b, std::move(h), {options_.least_agreeing, options_.least_way});
     accepted.insert(accepted.end(), now.begin(), now.end());
   }
   return accepted;
+}
+
+void LoopCloser::compare_with_one_another(const Map& map, const InformationGraph& graph,
+                                          std::vector<Hypothesis>& found) const {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::vector<BoundedPose> about_a =
+        tree_bound(graph, map.poses(), found[i].a.value, bound_options(map.patch(found[i].a), 0.6, 0.25, 30));
+    for (std::size_t k = 0; k < i; ++k) {
+      // Where the map itself does not know how the two places lie, both may be right.
+      const BoundedPose* other = find(about_a, found[k].a);
+      if (other == nullptr) continue;
+      const UncertainPose2 around = compound(other->relative, found[k].T_a_b);
+      if (disagreement(around, found[i].T_a_b) < options_.consistent) continue;
+      const double ratio = merit_of(found[i], options_.look_alike) / merit_of(found[k], options_.look_alike);
+      found[k].ambiguity = std::max(found[k].ambiguity, std::min(1.0, ratio));
+      found[i].ambiguity = std::max(found[i].ambiguity, std::min(1.0, 1 / ratio));
+    }
+  }
 }
 
 std::vector<std::size_t> LoopCloser::enter(const Map& map, const InformationGraph& graph,
@@ -202,12 +226,25 @@ bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing, const Quoru
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   bool clear = false;
+  double contradicted = 0;
+  double merit = 0;
+  std::set<std::size_t> rivals;
   for (const std::size_t i : agreeing) {
+    merit += merit_of(ledger_[i], options_.look_alike);
+    rivals.insert(ledger_[i].conflicts.begin(), ledger_[i].conflicts.end());
     low = std::min(low, along_[ledger_[i].b.index()]);
     high = std::max(high, along_[ledger_[i].b.index()]);
     clear = clear || ledger_[i].ambiguity < options_.most_ambiguous;
+    contradicted += ledger_[i].contradicted / static_cast<double>(agreeing.size());
   }
-  return clear && high - low >= quorum.way;
+  double against = 0;
+  for (const std::size_t i : rivals) {
+    double rival = merit_of(ledger_[i], options_.look_alike);
+    for (const std::size_t k : ledger_[i].supports) rival += merit_of(ledger_[k], options_.look_alike);
+    against = std::max(against, rival);
+  }
+  return clear && high - low >= quorum.way && contradicted <= options_.most_contradicted &&
+         merit > options_.outvotes * against;
 }
 
 }  // namespace helicoid

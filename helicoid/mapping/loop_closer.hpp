@@ -17,6 +17,10 @@ struct LoopCloserOptions {
   std::size_t least_agreeing_islands = 5;
   double least_way_islands = 8;
   double most_ambiguous = 0.9;  ///< one at least must be clearer than this
+  /// Together: share of the points that stand in what the other passage saw as free. Furniture that was moved
+  /// contradicts a place here and there, a building that merely looks alike nearly everywhere.
+  double most_contradicted = 0.015;
+  double outvotes = 1.5;  ///< they weigh this many times as much as any others that cannot be true together with them
 };
 
 class LoopCloser {
@@ -68,6 +72,8 @@ class LoopCloser {
   /// Enters it; those that are accepted now.
   std::vector<std::size_t> enter(const Map& map, const InformationGraph& graph, std::span<const BoundedPose> about_b,
                                  Hypothesis found, const Quorum& quorum);
+  /// Places that one patch may lie at, and that cannot all be right, make one another ambiguous.
+  void compare_with_one_another(const Map& map, const InformationGraph& graph, std::vector<Hypothesis>& found) const;
   void compare_with_earlier(const Map& map, const InformationGraph& graph, std::span<const BoundedPose> about_b,
                             std::size_t entry);
   /// True if the operator has decided about it, or about one that says the same.

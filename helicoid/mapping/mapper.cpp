@@ -256,6 +256,9 @@ std::vector<Decision> Mapper::regrets() const {
   return find_regrets(state_->map, state_->graph, state_->closer, state_->sightings);
 }
 
+const std::vector<Decision>& Mapper::decisions() const {
+  return state_->options.decisions;
+}
 const Map& Mapper::map() const {
   return state_->map;
 }

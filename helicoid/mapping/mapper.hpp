@@ -75,6 +75,9 @@ class Mapper {
   /// decisions besides make a map without it.
   [[nodiscard]] std::vector<Decision> regrets() const;
 
+  /// Those that were given from the start, and during the run.
+  [[nodiscard]] const std::vector<Decision>& decisions() const;
+
   [[nodiscard]] const Map& map() const;
   [[nodiscard]] const MapperCounts& counts() const;
   [[nodiscard]] const MapperTimes& times() const;

@@ -16,24 +16,52 @@ constexpr float kSupportBeams = 2.5F;
 constexpr float kSurfaceGap = 0.12F;
 constexpr float kSurfaceGapBeams = 4.0F;
 constexpr std::size_t kMaxSupport = 6;
+constexpr std::size_t kLeastSupport = 3;
 constexpr float kMinPlanarity = 0.9F;
 
 /// About the mean, m^2; 0 for fewer than three points.
 struct SecondMoments {
   float xx = 0, xy = 0, yy = 0;
+  /// Squared: 1 for points on a line, 0 for points that spread alike in all directions.
+  [[nodiscard]] float flatness() const {
+    const float trace = xx + yy;
+    return trace > 0 ? ((xx - yy) * (xx - yy) + 4 * xy * xy) / (trace * trace) : 0;
+  }
+  [[nodiscard]] bool is_flat() const { return flatness() >= kMinPlanarity * kMinPlanarity; }
 };
 
-SecondMoments second_moments(const PrefixMoments& before, const PrefixMoments& after, std::size_t count) {
+/// Of the points first..last of a list of prefixes.
+SecondMoments second_moments(const std::vector<PrefixMoments>& prefix, std::size_t first, std::size_t last) {
   static constexpr double kInverse[] = {0,       1,       1.0 / 2, 1.0 / 3,  1.0 / 4,  1.0 / 5,  1.0 / 6,
                                         1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13};
   static_assert(std::size(kInverse) == 2 * kMaxSupport + 2);
-  if (count < 3) return {};
+  const std::size_t count = last + 1 - first;
+  if (count < kLeastSupport) return {};
+  const PrefixMoments& before = prefix[first];
+  const PrefixMoments& after = prefix[last + 1];
   const double scale = kInverse[count];
   const double mean_x = (after.x - before.x) * scale;
   const double mean_y = (after.y - before.y) * scale;
   return {static_cast<float>((after.xx - before.xx) * scale - mean_x * mean_x),
           static_cast<float>((after.xy - before.xy) * scale - mean_x * mean_y),
           static_cast<float>((after.yy - before.yy) * scale - mean_y * mean_y)};
+}
+
+/// Near an edge the points about point i lie on two surfaces: its own is on one side of it, or no wider than three
+/// points. Door frames and steps of a few centimetres are all that fixes a place along a corridor. first..last: the
+/// points about it.
+SecondMoments moments_at_edge(const std::vector<PrefixMoments>& prefix, std::size_t first, std::size_t i,
+                              std::size_t last) {
+  const SecondMoments before = second_moments(prefix, first, i);
+  const SecondMoments after = second_moments(prefix, i, last);
+  SecondMoments flattest = before.flatness() >= after.flatness() ? before : after;
+  if (flattest.is_flat()) return flattest;
+  for (std::size_t k = 0; k < kLeastSupport; ++k) {
+    if (i < first + k || i + kLeastSupport > last + 1 + k) continue;
+    const SecondMoments few = second_moments(prefix, i - k, i - k + kLeastSupport - 1);
+    if (few.flatness() > flattest.flatness()) flattest = few;
+  }
+  return flattest;
 }
 
 }  // namespace
@@ -110,7 +138,8 @@ void ScanPointExtractor::find_support() {
     last = std::max(last, i);
     while (last > i && square_distance(last, i) > square) --last;
     while (last + 1 < end && last < i + kMaxSupport && square_distance(last + 1, i) <= square) ++last;
-    const SecondMoments m = second_moments(prefix_[first], prefix_[last + 1], last - first + 1);
+    SecondMoments m = second_moments(prefix_, first, last);
+    if (!m.is_flat()) m = moments_at_edge(prefix_, first, i, last);
     moments_.xx[i] = m.xx;
     moments_.xy[i] = m.xy;
     moments_.yy[i] = m.yy;

@@ -63,6 +63,28 @@ TEST(ScanPoints, NormalsAreUnitVectorsThatFaceTheLaserOrAreNone) {
   }
 }
 
+TEST(ScanPoints, AStepInAWallHasANormalOfItsOwn) {
+  const LaserModel laser = lms200();
+  ScanPointExtractor extractor(laser);
+  // A corridor along x whose wall steps in by 20 cm: the step alone says how far along a robot is.
+  const RayCaster facing(std::vector<Segment>{{{-20, 1.2}, {1, 1.2}}, {{1, 1.2}, {1, 1}}, {{1, 1}, {20, 1}}});
+  const Pose2 T_world_robot{0, 0.2, 0.8};
+  const ScanPoints& points = extractor.extract(look(facing, laser, T_world_robot));
+  std::size_t on_step = 0;
+  std::size_t across = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vector2d p = T_world_robot * Vector2d(points.x[k], points.y[k]);
+    if (std::abs(p.x() - 1) > 1e-3 || p.y() < 1.01 || p.y() > 1.19) continue;
+    ++on_step;
+    EXPECT_GT(points.weight[k], 0);
+    const Vector2d normal = T_world_robot.rotation() * Vector2d(points.nx[k], points.ny[k]);
+    across += (normal - Vector2d(-1, 0)).norm() < 0.15 ? 1 : 0;
+  }
+  EXPECT_GE(on_step, 4U);
+  // The one in the corner may as well belong to the wall.
+  EXPECT_GE(across + 1, on_step);
+}
+
 TEST(ScanPoints, NormalsOfAStraightWallAreItsNormal) {
   Random random(3);
   const LaserModel laser = lms200();
