@@ -22,14 +22,51 @@ bool is_reachable(const ManifoldPoint& point, std::span<const Travel> travel) {
 
 /// The patches of a cluster and what is around them; ascending.
 std::vector<PatchId> patches_about(const OpenEdges& edges, const EdgeCluster& cluster) {
-  std::set<PatchId> patches;
+  PatchSet set(edges.size());
   PatchId last;
   for (const EdgePoint& point : cluster.points) {
     if (point.patch == last) continue;
     last = point.patch;
-    patches.insert(edges.around(last).begin(), edges.around(last).end());
+    set |= edges.set_around(last);
   }
-  return {patches.begin(), patches.end()};
+  std::vector<PatchId> patches;
+  set.for_each([&](std::size_t i) { patches.push_back(make_id<PatchId>(i)); });
+  return patches;
+}
+
+/// Of the numbers that a frontier is judged from (FNV-1a).
+class Fingerprint {
+ public:
+  void add(std::uint64_t value) {
+    for (int k = 0; k < 64; k += 8) hash_ = (hash_ ^ (value >> k & 0xFFU)) * 0x100000001B3U;
+  }
+  void add(double value, double step) { add(static_cast<std::uint64_t>(std::llround(value / step))); }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xCBF29CE484222325U;
+};
+
+std::uint64_t fingerprint_of_edge(const Map& map, const EdgeCluster& cluster) {
+  Fingerprint print;
+  const Pose2 T_patch_plane = map.T_plane_patch(cluster.points.front().patch).inverse();
+  for (const EdgePoint& point : cluster.points) {
+    const Vector2d p = T_patch_plane * point.p_plane;
+    print.add(point.patch.value);
+    print.add(p.x(), 0.1);
+    print.add(p.y(), 0.1);
+  }
+  return print.value();
+}
+
+std::uint64_t fingerprint_of_patches(const Map& map, std::span<const PatchId> patches) {
+  Fingerprint print;
+  for (const PatchId id : patches) {
+    print.add(id.value);
+    print.add(map.T_plane_patch(id).x, 0.1);
+    print.add(map.T_plane_patch(id).y, 0.1);
+  }
+  return print.value();
 }
 
 /// A place on the ground in the patch that knows it from nearest by.
@@ -144,24 +181,15 @@ GroundWindow FrontierFinder::window_about(const Map& map, const EdgeCluster& clu
   return window;
 }
 
-Frontier FrontierFinder::judge(const Map& map, const EdgeCluster& cluster, std::span<const Travel> travel) {
+Frontier FrontierFinder::judge(const Map& map, const EdgeCluster& cluster, std::span<const PatchId> patches,
+                               std::span<const Travel> travel) {
   Frontier frontier = describe(map, cluster);
-  const std::vector<PatchId> patches = patches_about(edges_, cluster);
   const std::vector<GroundCell> edge = edge_cells(cluster);
   GroundWindow window = window_about(map, cluster, patches);
   GroundWindow wide = window;
   wide.mark_near_obstacles(static_cast<int>(options_.robot_radius / kGroundCell));
   const std::optional<ManifoldPoint> goal = GoalSearch(map, wide, patches, options_).find(edge, travel);
-  if (goal) {
-    frontier.goal = *goal;
-  } else {
-    std::vector<GroundCell> stood;
-    stood.reserve(patches.size());
-    for (const PatchId id : patches) stood.push_back(ground_cell(map.T_plane_patch(id).translation()));
-    frontier.opening = widest_opening(window, edge, stood);
-    const bool narrow = frontier.opening < 2 * options_.robot_radius;
-    frontier.status = narrow ? FrontierStatus::too_narrow : FrontierStatus::unreachable;
-  }
+  if (goal) frontier.goal = *goal;
   const Vector2d from_plane = project(map, frontier.goal);
   const double heading = heading_to(cluster, from_plane);
   window.mark_near_obstacles(1);
@@ -169,6 +197,13 @@ Frontier FrontierFinder::judge(const Map& map, const EdgeCluster& cluster, std::
   frontier.heading_patch = wrap_angle(heading - map.T_plane_patch(frontier.goal.patch).yaw);
   frontier.gain_m2 = look.gain_m2;
   frontier.seen = std::move(look.seen);
+  if (goal || frontier.gain_m2 < options_.least_gain) return frontier;
+  std::vector<GroundCell> stood;
+  stood.reserve(patches.size());
+  for (const PatchId id : patches) stood.push_back(ground_cell(map.T_plane_patch(id).translation()));
+  frontier.opening = widest_opening(window, edge, stood);
+  const bool narrow = frontier.opening < 2 * options_.robot_radius;
+  frontier.status = narrow ? FrontierStatus::too_narrow : FrontierStatus::unreachable;
   return frontier;
 }
 
@@ -176,11 +211,29 @@ std::vector<Frontier> FrontierFinder::find(const Map& map, const Neighbours& nei
                                            std::span<const Travel> travel) {
   edges_.update(map, neighbours);
   std::vector<Frontier> frontiers;
+  std::map<std::uint64_t, Judged> judged;
   for (const EdgeCluster& cluster : cluster_edges(map, edges_, options_.clusters)) {
-    Frontier frontier = judge(map, cluster, travel);
-    if (frontier.gain_m2 >= options_.least_gain) frontiers.push_back(std::move(frontier));
+    const std::vector<PatchId> patches = patches_about(edges_, cluster);
+    const std::uint64_t edge = fingerprint_of_edge(map, cluster);
+    Judged& now = judged[edge];
+    const auto before = judged_.find(edge);
+    const std::uint64_t print = fingerprint_of_patches(map, patches);
+    if (before != judged_.end() && holds(before->second, print, travel)) {
+      now = std::move(before->second);
+      ++now.age;
+    } else {
+      now = {judge(map, cluster, patches, travel), print, 0};
+    }
+    if (now.frontier.gain_m2 >= options_.least_gain) frontiers.push_back(now.frontier);
   }
+  judged_ = std::move(judged);
   return frontiers;
+}
+
+bool FrontierFinder::holds(const Judged& before, std::uint64_t patches, std::span<const Travel> travel) const {
+  if (before.patches != patches && before.age >= options_.renewal) return false;
+  // What could not be reached then may be now, by a way that leads elsewhere.
+  return (before.frontier.status == FrontierStatus::open) == is_reachable(before.frontier.goal, travel);
 }
 
 std::vector<Frontier> find_frontiers(const Map& map, const Neighbours& neighbours, std::span<const Travel> travel,

@@ -1,7 +1,9 @@
 // Frontiers on the manifold (Yamauchi 1997; design 5.7): where a look would show what is not known yet.
 #pragma once
 
-#include <limits>
+#include <cstdint>
+#include <map>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -47,7 +49,9 @@ struct FrontierOptions {
   double look_range = 6.0;                  ///< gain is counted this far from the goal
   double field_of_view = std::numbers::pi;  ///< of the robot's laser, radians
   double goal_reach = 4.0;                  ///< a goal lies within this way of the edge
-  double least_gain = 0.3;                  ///< less than this is not worth a look, m2
+  /// New patches about an edge that they do not touch are taken into account after so many calls.
+  int renewal = 4;
+  double least_gain = 0.3;  ///< less than this is not worth a look, m2
 };
 
 class FrontierFinder {
@@ -60,12 +64,21 @@ class FrontierFinder {
   [[nodiscard]] const OpenEdges& edges() const { return edges_; }
 
  private:
+  /// What was found of an edge, and from which patches about it.
+  struct Judged {
+    Frontier frontier;
+    std::uint64_t patches = 0;
+    int age = 0;  ///< in calls
+  };
+  [[nodiscard]] bool holds(const Judged& before, std::uint64_t patches, std::span<const Travel> travel) const;
   [[nodiscard]] GroundWindow window_about(const Map& map, const EdgeCluster& cluster, std::span<const PatchId> patches);
-  [[nodiscard]] Frontier judge(const Map& map, const EdgeCluster& cluster, std::span<const Travel> travel);
+  [[nodiscard]] Frontier judge(const Map& map, const EdgeCluster& cluster, std::span<const PatchId> patches,
+                               std::span<const Travel> travel);
 
   FrontierOptions options_;
   OpenEdges edges_;
   PatchCellTable cells_;
+  std::map<std::uint64_t, Judged> judged_;  ///< by their edges
 };
 
 /// The same without anything kept from one call to the next.

@@ -36,6 +36,7 @@ class OpenEdges {
   /// The patches that may tell about what lies around a patch: its neighbours and theirs, and what else is the same
   /// place, itself included; ascending.
   [[nodiscard]] const std::vector<PatchId>& around(PatchId id) const { return edges_[id.index()].around; }
+  [[nodiscard]] const PatchSet& set_around(PatchId id) const { return edges_[id.index()].near; }
   [[nodiscard]] bool same_sheet(PatchId a, PatchId b) const { return edges_[a.index()].near.contains(b.index()); }
   [[nodiscard]] const PatchView& view(PatchId id) const { return *edges_[id.index()].view; }
   [[nodiscard]] std::size_t size() const { return edges_.size(); }
