@@ -6,27 +6,10 @@
 #include "apps/simulated_run.hpp"
 #include "helicoid/eval/stamp_lookup.hpp"
 #include "helicoid/io/relations_file.hpp"
-#include "helicoid/manifold/seen_free.hpp"
-#include "helicoid/mapping/relate.hpp"
 
 namespace helicoid {
 
 namespace {
-
-/// A point this far within what the other scan saw as free contradicts it, metres.
-constexpr double kDeep = 0.15;
-/// A pose explains clearly less than another if it finds less than this part of the other's correspondences.
-constexpr double kClearly = 0.9;
-
-/// What two scans say of a pose of one relative to the other.
-struct Agreement {
-  int correspondences = 0;
-  int contradictions = 0;
-};
-
-Agreement agreement(const Patch& a, const Patch& b, const Pose2& T_a_b) {
-  return {match_patches(a, b, T_a_b).correspondences, count_contradictions(a, b, T_a_b, kDeep)};
-}
 
 /// Counts over all relations.
 class Comparison {
@@ -34,10 +17,10 @@ class Comparison {
   void add(const Agreement& known, const Agreement& mapped, double error_m) {
     ++count_;
     error_ += error_m;
-    known_contradicted_ += known.contradictions > known.correspondences ? 1 : 0;
-    mapped_contradicted_ += mapped.contradictions > mapped.correspondences ? 1 : 0;
-    const bool map_better = known.correspondences < kClearly * mapped.correspondences;
-    const bool known_better = mapped.correspondences < kClearly * known.correspondences;
+    known_contradicted_ += known.is_contradicted() ? 1 : 0;
+    mapped_contradicted_ += mapped.is_contradicted() ? 1 : 0;
+    const bool map_better = known.is_clearly_worse_than(mapped);
+    const bool known_better = mapped.is_clearly_worse_than(known);
     map_better_ += map_better ? 1 : 0;
     known_better_ += known_better ? 1 : 0;
     if (map_better || known_better) return;

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "helicoid/manifold/seen_free.hpp"
 #include "helicoid/mapping/relate.hpp"
 
 namespace helicoid {
@@ -13,6 +14,7 @@ namespace {
 constexpr int kSectors = 18;  // of the field of view, dealt out to two halves
 constexpr int kRounds = 20;
 constexpr double kKnown = 0.02;  // metres, one standard deviation
+constexpr double kDeep = 0.15;   // metres
 
 /// b with only every second sector of its beams; all of them stay in a.
 Patch half_of(Patch b, int which) {
@@ -50,6 +52,10 @@ Result<ScanViews> ScanViews::read(const std::vector<RobotLogs>& robots) {
   }
   views.lasers_ = logs->robots().front().reader->lasers();
   return views;
+}
+
+Agreement agreement(const Patch& a, const Patch& b, const Pose2& T_a_b) {
+  return {match_patches(a, b, T_a_b).correspondences, count_contradictions(a, b, T_a_b, kDeep)};
 }
 
 std::optional<ScanMatch> match_scans(const Patch& a, const Patch& b, const Pose2& near) {

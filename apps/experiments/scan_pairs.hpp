@@ -25,6 +25,18 @@ class ScanViews {
   std::vector<Scan> scans_;
 };
 
+/// What two scans say of a pose of one relative to the other.
+struct Agreement {
+  int correspondences = 0;
+  int contradictions = 0;  ///< points of either that lie more than 15 cm within what the other saw as free
+  [[nodiscard]] bool is_contradicted() const { return contradictions > correspondences; }
+  /// True if it explains less than nine tenths of what the other pose explains.
+  [[nodiscard]] bool is_clearly_worse_than(const Agreement& other) const {
+    return correspondences < 0.9 * other.correspondences;
+  }
+};
+[[nodiscard]] Agreement agreement(const Patch& a, const Patch& b, const Pose2& T_a_b);
+
 /// The pose of b relative to a by their surfaces alone, from `near` on.
 struct ScanMatch {
   Pose2 T_a_b;

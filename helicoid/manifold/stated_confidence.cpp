@@ -1,6 +1,7 @@
 #include "helicoid/manifold/stated_confidence.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "helicoid/manifold/confidence.hpp"
 
@@ -26,7 +27,10 @@ StatedConfidence::StatedConfidence(const Map& map, const Island& island, const S
     : map_(map), island_(island), options_(options), exact_(island_poses(map, island), graph_edges(map, island)) {}
 
 UncertainPose2 StatedConfidence::of_patches(PatchId a, PatchId b) const {
-  return exact_.of(island_.place_of(a), island_.place_of(b));
+  UncertainPose2 stated = exact_.of(island_.place_of(a), island_.place_of(b));
+  const Matrix3d scale = Vector3d(1, 1, std::sqrt(options_.heading_share)).asDiagonal();
+  stated.covariance = transport(scale, stated.covariance);
+  return stated;
 }
 
 UncertainPose2 StatedConfidence::between(PatchId a, PatchId b) const {

@@ -37,10 +37,14 @@ Vector3d draw(Random& random, const Matrix3d& covariance) {
 
 const PatchId kA{1};
 const PatchId kB{4};
+/// Headings as the graph has them.
+StatedConfidenceOptions as_the_graph(double timing_sigma) {
+  return {timing_sigma, 1};
+}
 
 TEST(StatedConfidence, OfARobotThatStandsStillIsTheExactOneWithTheFloorsOfBothScans) {
   const synthetic::Builder builder = chain({}, 6);
-  const StatedConfidence stated(builder.map, builder.map.islands().front());
+  const StatedConfidence stated(builder.map, builder.map.islands().front(), as_the_graph(0.006));
   ASSERT_TRUE(stated.is_determined());
   EXPECT_LT((stated.between(kA, kB).covariance - with_floors_only(builder.map, kA, kB)).norm(), 1e-15);
 }
@@ -48,7 +52,7 @@ TEST(StatedConfidence, OfARobotThatStandsStillIsTheExactOneWithTheFloorsOfBothSc
 TEST(StatedConfidence, AddsAMomentOfTheMotionOfEitherEnd) {
   const Pose2 step{0.2, 0, 0.25};
   const synthetic::Builder builder = chain(step, 6);
-  const StatedConfidence stated(builder.map, builder.map.islands().front(), {0.01});
+  const StatedConfidence stated(builder.map, builder.map.islands().front(), as_the_graph(0.01));
   const Matrix3d more = stated.between(kA, kB).covariance - with_floors_only(builder.map, kA, kB);
   const Vector3d moved = 0.01 * logarithm(step) / 0.25;
   // By the ends' own derivatives: T_a_b is of both what a and what b moves by.
@@ -67,8 +71,8 @@ TEST(StatedConfidence, HoldsForStampsThatAreOff) {
   // What is drawn by the model's own account, moved along the drive and not by derivatives, has its covariance.
   Random random(1);
   const synthetic::Builder builder = chain({0.2, 0, 0.25}, 6);
-  const StatedConfidence stated(builder.map, builder.map.islands().front(), {0.01});
-  const Matrix3d exact = StatedConfidence(builder.map, builder.map.islands().front(), {0}).between(kA, kB).covariance;
+  const StatedConfidence stated(builder.map, builder.map.islands().front(), as_the_graph(0.01));
+  const Matrix3d exact = with_floors_only(builder.map, kA, kB);
   const UncertainPose2 whole = stated.between(kA, kB);
   const Vector3d twist = twist_at(builder.map, {RobotId{0}, kA.value});
   double nees = 0;
@@ -81,6 +85,21 @@ TEST(StatedConfidence, HoldsForStampsThatAreOff) {
     nees += off.dot(whole.covariance.ldlt().solve(off)) / kDraws;
   }
   EXPECT_NEAR(nees, 3, 0.16);  // four standard deviations of the mean of so many
+}
+
+TEST(StatedConfidence, TakesHeadingsByTheirShareAndLeavesPositionsAndCorrelationsAlone) {
+  const synthetic::Builder builder = chain({}, 6);
+  const Island island = builder.map.islands().front();
+  const auto without_floors = [&](double share) -> Matrix3d {
+    const Matrix3d floors =
+        with_noise_floor({{}, Matrix3d::Zero()}, noise_floor(0.008, 0.006), noise_floor(0.008, 0.006));
+    return StatedConfidence(builder.map, island, {0, share}).between(kA, kB).covariance - floors;
+  };
+  const Matrix3d whole = without_floors(1);
+  const Matrix3d half = without_floors(0.5);
+  EXPECT_NEAR(half(2, 2), 0.5 * whole(2, 2), 1e-15);
+  EXPECT_LT((half.topLeftCorner<2, 2>() - whole.topLeftCorner<2, 2>()).norm(), 1e-15);
+  EXPECT_NEAR(half(0, 2), std::sqrt(0.5) * whole(0, 2), 1e-15);
 }
 
 TEST(StatedConfidence, OfScansOnTheirPatchesIsThatOfThePatchesAndTheirOwn) {
