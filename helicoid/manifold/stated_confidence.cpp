@@ -55,7 +55,10 @@ UncertainPose2 StatedConfidence::with_floors(const UncertainPose2& ab, const Tak
   const Matrix3d floor_a = floor_of(laser_a, twist_at(map_, a), options_.timing_sigma);
   const Matrix3d floor_b = floor_of(laser_b, twist_at(map_, b), options_.timing_sigma);
   // A displacement of b along its own axes is one of T_a_b turned by its yaw.
-  return {ab.T_a_b, with_noise_floor(ab, floor_a, turned(floor_b, ab.T_a_b.yaw))};
+  UncertainPose2 stated{ab.T_a_b, with_noise_floor(ab, floor_a, turned(floor_b, ab.T_a_b.yaw))};
+  const Vector2d longer = options_.scale_sigma * ab.T_a_b.translation();
+  stated.covariance.topLeftCorner<2, 2>() += longer * longer.transpose();
+  return stated;
 }
 
 Vector3d twist_at(const Map& map, const StatedConfidence::TakenScan& scan) {

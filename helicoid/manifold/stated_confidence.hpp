@@ -12,13 +12,17 @@ namespace helicoid {
 struct StatedConfidenceOptions {
   /// A scan is not taken quite at its stamp. What an ordinary drive makes of that is part of the laser's noise floors;
   /// a fast turn makes more of it: this many seconds (one standard deviation) of the robot's motion.
-  double timing_sigma = 0.006;
+  double timing_sigma = 0.005;
   /// Variance of a heading, as a share of what the graph has it. The laser's kappa is set by positions: an error that
   /// all beams of a surface share shifts a pair and hardly turns it, so that headings are known better than that.
   double heading_share = 0.6;
+  /// Of a displacement, what the laser's own measure is off by: ranges and the beams' spacing have errors that no
+  /// number of scans averages out. One standard deviation, relative.
+  double scale_sigma = 0.003;
 };
 
-/// The exact covariance of an island's graph (eq. 9), headings by their share of it, and once for each end the noise
+/// The exact covariance of an island's graph (eq. 9), headings by their share of it, the laser's measure, and once for
+/// each end the noise
 /// floor of its scan (design 5.3) and what the robot's motion makes of its stamp.
 class StatedConfidence {
  public:

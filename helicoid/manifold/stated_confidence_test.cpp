@@ -37,9 +37,9 @@ Vector3d draw(Random& random, const Matrix3d& covariance) {
 
 const PatchId kA{1};
 const PatchId kB{4};
-/// Headings as the graph has them.
+/// Headings as the graph has them, and a true measure.
 StatedConfidenceOptions as_the_graph(double timing_sigma) {
-  return {timing_sigma, 1};
+  return {timing_sigma, 1, 0};
 }
 
 TEST(StatedConfidence, OfARobotThatStandsStillIsTheExactOneWithTheFloorsOfBothScans) {
@@ -93,13 +93,24 @@ TEST(StatedConfidence, TakesHeadingsByTheirShareAndLeavesPositionsAndCorrelation
   const auto without_floors = [&](double share) -> Matrix3d {
     const Matrix3d floors =
         with_noise_floor({{}, Matrix3d::Zero()}, noise_floor(0.008, 0.006), noise_floor(0.008, 0.006));
-    return StatedConfidence(builder.map, island, {0, share}).between(kA, kB).covariance - floors;
+    return StatedConfidence(builder.map, island, {0, share, 0}).between(kA, kB).covariance - floors;
   };
   const Matrix3d whole = without_floors(1);
   const Matrix3d half = without_floors(0.5);
   EXPECT_NEAR(half(2, 2), 0.5 * whole(2, 2), 1e-15);
   EXPECT_LT((half.topLeftCorner<2, 2>() - whole.topLeftCorner<2, 2>()).norm(), 1e-15);
   EXPECT_NEAR(half(0, 2), std::sqrt(0.5) * whole(0, 2), 1e-15);
+}
+
+TEST(StatedConfidence, IsLessAlongADisplacementByTheShareThatTheMeasureMayBeOff) {
+  const synthetic::Builder builder = chain({0.4, 0.3, 0}, 6);
+  const Island island = builder.map.islands().front();
+  const Matrix3d more = StatedConfidence(builder.map, island, {0, 1, 0.01}).between(kA, kB).covariance -
+                        with_floors_only(builder.map, kA, kB);
+  const Vector2d displacement(3 * 0.4, 3 * 0.3);
+  EXPECT_NEAR(displacement.normalized().dot(more.topLeftCorner<2, 2>() * displacement.normalized()),
+              std::pow(0.01 * displacement.norm(), 2), 1e-12);
+  EXPECT_NEAR(more.trace(), std::pow(0.01 * displacement.norm(), 2), 1e-12);  // and nowhere else
 }
 
 TEST(StatedConfidence, OfScansOnTheirPatchesIsThatOfThePatchesAndTheirOwn) {
