@@ -46,7 +46,14 @@ class Exploration {
         simulation_(std::move(simulation)),
         pilot_(job.pilot, names_of(job.robots.size()), laser, all_of(job.robots.size()), job.planner),
         recording_(job.robots.size(), "explore"),
-        was_alive_(job.robots.size(), false) {}
+        was_alive_(job.robots.size(), false),
+        was_heard_(job.robots.size(), true) {
+    if (!job.radio) return;
+    radio_.emplace(job.world, job.robots.size(), *job.radio);
+    for (std::size_t i = 0; i < job.robots.size(); ++i) {
+      on_board_.emplace_back(job.pilot, names_of(job.robots.size()), laser, std::vector{i}, job.planner);
+    }
+  }
 
   void run() {
     while (!over_ && simulation_.now() < job_.longest && !InterruptGuard::interrupted()) {
@@ -61,27 +68,40 @@ class Exploration {
  private:
   /// Stamps count from the simulation's beginning in what people read.
   [[nodiscard]] double stamp() const { return LiveSimulation::kFirstStamp + simulation_.now(); }
+  [[nodiscard]] bool is_heard(std::size_t robot) const { return !radio_ || radio_->in_contact(robot); }
 
   void advance() {
     const double before = thread_cpu_seconds();
     std::vector<LiveEvent> events = simulation_.tick();
     sim_cpu_s_ += thread_cpu_seconds() - before;
-    for (LiveEvent& e : events) {
+    for (const LiveEvent& e : events) {
       recording_.note(e.event, e.T_world_robot);
+      events_.push_back(e.event);
+      if (radio_) on_board_[e.event.robot.index()].take(e.event);
+    }
+    hear(radio_ ? radio_->pass(std::move(events), simulation_) : std::move(events));
+    for (std::size_t i = 0; i < was_alive_.size(); ++i) note_state(i);
+  }
+
+  void hear(const std::vector<LiveEvent>& events) {
+    for (const LiveEvent& e : events) {
       const double began = thread_cpu_seconds();
       pilot_.take(e.event);
       if (std::holds_alternative<Scan>(e.event.body)) scan_seconds_.push_back(thread_cpu_seconds() - began);
-      events_.push_back(std::move(e.event));
-    }
-    for (std::size_t i = 0; i < was_alive_.size(); ++i) {
-      if (was_alive_[i] && !simulation_.alive(i)) lose(i);
-      was_alive_[i] = simulation_.alive(i);
     }
   }
 
-  void lose(std::size_t robot) {
-    pilot_.set_reachable(robot, false);
-    own_journal_.push_back({stamp(), JournalKind::died, simulated_robot_name(robot), "is not heard of any more"});
+  void note_state(std::size_t robot) {
+    const bool alive = simulation_.alive(robot);
+    if (was_alive_[robot] && !alive) {
+      own_journal_.push_back({stamp(), JournalKind::died, simulated_robot_name(robot), "is not heard of any more"});
+    } else if (alive && is_heard(robot) != was_heard_[robot]) {
+      own_journal_.push_back({stamp(), JournalKind::radio, simulated_robot_name(robot),
+                              was_heard_[robot] ? "out of contact: goes on by itself" : "in contact again"});
+    }
+    was_alive_[robot] = alive;
+    was_heard_[robot] = is_heard(robot);
+    pilot_.set_reachable(robot, alive && is_heard(robot));
   }
 
   void plan() {
@@ -91,13 +111,31 @@ class Exploration {
     operator_actions_ += orders.size();
     pilot_.plan(stamp(), orders);
     over_ = pilot_.team_plan().finished;
+    for (std::size_t i = 0; i < was_alive_.size(); ++i) {
+      if (is_heard(i)) continue;
+      on_board_[i].plan(stamp());
+      over_ = over_ && (!was_alive_[i] || on_board_[i].team_plan().finished);
+    }
     if (job_.observer && !job_.observer(simulation_.now(), simulation_, pilot_)) over_ = true;
   }
 
   void steer() {
     for (std::size_t i = 0; i < was_alive_.size(); ++i) {
-      if (was_alive_[i]) simulation_.command(i, pilot_.steer(i, stamp(), job_.simulation.period));
+      if (!was_alive_[i]) continue;
+      TeamPilot& pilot = is_heard(i) ? pilot_ : on_board_[i];
+      simulation_.command(i, pilot.steer(i, stamp(), job_.simulation.period));
     }
+  }
+
+  /// All events by their stamps, under these decisions, as run_map has them.
+  [[nodiscard]] Mapper map_by_stamps(const std::vector<Decision>& decisions, const LaserModel& laser) const {
+    MapperOptions options = job_.pilot.mapper;
+    options.decisions = decisions;
+    Mapper mapper(options);
+    for (const std::string& name : names_of(job_.robots.size())) mapper.add_robot(name, {laser});
+    for (const Event& event : events_) mapper.process(event);
+    mapper.finish();
+    return mapper;
   }
 
   void collect_journal(ExploreRun& run);
@@ -108,9 +146,11 @@ class Exploration {
   TeamPilot pilot_;
   SimulatedRecording recording_;
   ExploreJournal own_journal_;
-  std::vector<Event> events_;  ///< as the mapper was told of them
+  std::optional<Radio> radio_;
+  std::vector<TeamPilot> on_board_;  ///< with a radio: what each robot would do by itself
+  std::vector<Event> events_;        ///< of all robots, by stamp
   std::vector<double> scan_seconds_;
-  std::vector<bool> was_alive_;
+  std::vector<bool> was_alive_, was_heard_;
   double next_plan_ = 0;
   double sim_cpu_s_ = 0;
   std::size_t operator_actions_ = 0;
@@ -134,28 +174,21 @@ void Exploration::map_again(ExploreRun& run, const LaserModel& laser) const {
   std::vector<Decision> decisions = run.map.mapper.decisions();
   for (std::vector<Decision> regrets = run.map.mapper.regrets(); !regrets.empty(); regrets = run.map.mapper.regrets()) {
     decisions.insert(decisions.end(), regrets.begin(), regrets.end());
-    MapperOptions options = job_.pilot.mapper;
-    options.decisions = decisions;
-    Mapper again(options);
-    for (const std::string& name : names_of(job_.robots.size())) again.add_robot(name, {laser});
-    for (const Event& event : events_) again.process(event);
-    again.finish();
-    run.map.mapper = std::move(again);
+    run.map.mapper = map_by_stamps(decisions, laser);
     ++run.map.passes;
   }
 }
 
 ExploreRun Exploration::finish(const LaserModel& laser) {
+  if (radio_) hear(radio_->hand_over());
   ExploreRun run(pilot_.release_mapper(), std::move(recording_));
   run.last_plan = pilot_.team_plan();
-  run.merges = pilot_.merges() - std::min(pilot_.merges(), side_by_side(job_.robots));
   run.operator_actions = operator_actions_;
   run.times = pilot_.times();
-  const TeamPlan& plan = run.last_plan;
-  run.end_state = over_ && plan.finished          ? name_of(plan.end_state)
+  run.end_state = over_ && run.last_plan.finished ? name_of(run.last_plan.end_state)
                   : InterruptGuard::interrupted() ? "interrupted"
                                                   : "time is up";
-  run.reason = plan.reason;
+  run.reason = run.last_plan.reason;
   run.sim_s = simulation_.now();
   run.sim_cpu_s = sim_cpu_s_;
   const auto contacts = simulation_.contacts();
@@ -163,7 +196,15 @@ ExploreRun Exploration::finish(const LaserModel& laser) {
   collect_journal(run);
   run.map.mapper.finish();
   run.map.passes = 1;
+  if (radio_) {
+    Mapper stamped = map_by_stamps(run.map.mapper.decisions(), laser);
+    run.order = compare_orders(run.map.mapper, stamped);
+    run.map.mapper = std::move(stamped);
+    ++run.map.passes;
+  }
   map_again(run, laser);
+  const std::size_t joins = run.map.mapper.map().island_count() - run.map.mapper.map().islands().size();
+  run.merges = joins - std::min(joins, side_by_side(job_.robots));
   run.map.scan_seconds = scan_seconds_;
   run.map.scans = scan_seconds_.size();
   run.map.interrupted = InterruptGuard::interrupted();

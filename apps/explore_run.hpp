@@ -2,13 +2,15 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/map_run.hpp"
+#include "apps/order_effect.hpp"
 #include "apps/simulated_recording.hpp"
 #include "apps/team_pilot.hpp"
-#include "helicoid/simulation/live_simulation.hpp"
+#include "helicoid/simulation/radio.hpp"
 
 namespace helicoid {
 
@@ -17,6 +19,8 @@ struct ExploreJob {
   std::vector<LiveRobot> robots;
   LiveOptions simulation;
   PilotOptions pilot;
+  /// Without it everybody is always heard. Who is out of contact goes on by itself, with a map of its own.
+  std::optional<RadioOptions> radio;
   TeamPilot::Planner planner;  ///< empty: the explorer
   double plan_period = 1;      ///< seconds
   double longest = 3600;       ///< then it is over whatever is left, simulated seconds
@@ -30,7 +34,8 @@ struct ExploreRun {
   ExploreRun(Mapper mapper, SimulatedRecording robots) : recording(std::move(robots)) {
     map.mapper = std::move(mapper);
   }
-  MapRun map;
+  MapRun map;                        ///< with a radio: of the events by their stamps, as a map of the logs
+  std::optional<OrderEffect> order;  ///< with a radio: what it does that events came late and in bulk
   SimulatedRecording recording;
   ExploreJournal journal;
   TeamPlan last_plan;

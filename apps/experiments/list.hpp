@@ -14,6 +14,7 @@ namespace helicoid {
 [[nodiscard]] Experiment mrclam_experiment();
 [[nodiscard]] Experiment outliers_experiment();
 [[nodiscard]] Experiment playback_experiment();
+[[nodiscard]] Experiment radio_experiment();
 [[nodiscard]] Experiment relations_experiment();
 [[nodiscard]] Experiment spiral_experiment();
 [[nodiscard]] Experiment teams_experiment();

@@ -1,0 +1,98 @@
+// Does a team finish when its radio fails for a while, a robot dies and another comes late?
+#include <algorithm>
+
+#include "apps/experiments/list.hpp"
+#include "apps/explore_quality.hpp"
+#include "apps/explore_run.hpp"
+
+namespace helicoid {
+
+namespace {
+
+constexpr std::size_t kRobots = 4;
+constexpr std::size_t kDying = 1;
+constexpr std::size_t kLate = 3;
+
+ExploreJob job_of(const World& world, std::uint64_t seed) {
+  ExploreJob job;
+  job.world = world;
+  job.simulation.seed = seed;
+  for (std::size_t i = 0; i < kRobots; ++i) job.robots.push_back({world.starts[i]});
+  return job;
+}
+
+/// The same team when a third of the time that it needs undisturbed is without radio.
+ExploreJob disturbed(ExploreJob job, double undisturbed_s) {
+  job.robots[kDying].dies_at = undisturbed_s / 2;
+  job.robots[kLate].joins_at = undisturbed_s / 4;
+  RadioOptions radio;
+  radio.p_world_base = job.world.starts.front().translation();
+  radio.cuts.push_back({undisturbed_s / 3, 2 * undisturbed_s / 3, {}});
+  job.radio = radio;
+  return job;
+}
+
+Result<Outcome> cut_off(std::uint64_t seed) {
+  const Result<World> world = load_world("office");
+  if (!world) return tl::unexpected(world.error());
+  const ExploreJob job = job_of(*world, seed);
+  const Result<ExploreRun> plain = run_exploration(job);
+  if (!plain) return tl::unexpected(plain.error());
+  const ExploreJob job_cut = disturbed(job, plain->sim_s);
+  const Result<ExploreRun> run = run_exploration(job_cut);
+  if (!run) return tl::unexpected(run.error());
+  const Result<BuildingTruth> truth =
+      BuildingTruth::of(*world, std::span(world->starts).first(kRobots), job.simulation.radius);
+  if (!truth) return tl::unexpected(truth.error());
+  const Map& map = run->map.mapper.map();
+  const MapQuality quality = truth->judge(map, run->recording.tracks());
+  const auto said = static_cast<double>(run->recording.tracks()[kDying].stamps.size());
+  const auto kept = static_cast<double>(map.robots()[kDying].trajectory.size());
+  const OrderEffect& order = *run->order;
+  return Outcome{{{"mapped_percent", 100 * quality.mapped_fraction},
+                  {"explored_count", run->last_plan.end_state == EndState::explored ? 1.0 : 0.0},
+                  {"islands_count", static_cast<double>(map.islands().size())},
+                  {"dead_robots_scans_lost_count", said - kept},
+                  {"collisions_count", static_cast<double>(run->contacts.size())},
+                  {"same_islands_count", order.same_islands ? 1.0 : 0.0},
+                  {"closures_heard_count", static_cast<double>(order.closures_heard)},
+                  {"closures_stamped_count", static_cast<double>(order.closures_stamped)},
+                  {"order_mean_m", order.mean_m},
+                  {"order_farthest_m", order.farthest_m},
+                  {"order_mean_deg", order.mean_deg},
+                  {"order_farthest_deg", order.farthest_deg},
+                  {"wall_rms_m", quality.wall_rms_m},
+                  {"explored_s", run->sim_s},
+                  {"undisturbed_s", plain->sim_s}},
+                 {}};
+}
+
+}  // namespace
+
+Experiment radio_experiment() {
+  Experiment e;
+  e.name = "radio";
+  e.question = "Does a team finish when its radio fails for a while, a robot dies and another comes late?";
+  e.method =
+      "The office of experiment fig6, four robots from two doors. First undisturbed, to know how long that takes; then "
+      "without radio for the middle third of that time, one robot dead after half of it and one that comes after a "
+      "quarter. Without radio each robot explores by itself with a map of its own; afterwards what it has seen arrives "
+      "late and in bulk. Mapped: of the floor that the living can reach. The events are mapped twice, as they were "
+      "heard and by their stamps (as `map` does with the logs): islands, closures, and how far the poses lie apart "
+      "after one rigid transform an island.";
+  e.bars = {{"mapped_percent", 99.0, std::nullopt, false},
+            {"explored_count", 1.0, std::nullopt, false},
+            {"dead_robots_scans_lost_count", std::nullopt, 0.0, false},
+            {"collisions_count", std::nullopt, 0.0, false},
+            {"same_islands_count", 1.0, std::nullopt, false},
+            {"order_mean_m", std::nullopt, 0.02, false},
+            {"order_mean_deg", std::nullopt, 0.2, false}};
+  e.seeds = 10;
+  e.quick_seeds = 1;
+  e.cases = [](const ExperimentOptions&) {
+    return std::vector<ExperimentCase>{{"office", true, "", [](std::uint64_t seed) { return cut_off(seed); }}};
+  };
+  return e;
+}
+
+}  // namespace helicoid

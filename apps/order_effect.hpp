@@ -1,0 +1,21 @@
+// What the order in which events were heard does to a map: the same events mapped twice.
+#pragma once
+
+#include "helicoid/mapping/mapper.hpp"
+
+namespace helicoid {
+
+struct OrderEffect {
+  bool same_islands = false;         ///< the same robots on each
+  std::size_t closures_heard = 0;    ///< accepted look-alikes of the map as it was heard
+  std::size_t closures_stamped = 0;  ///< and of the map by stamps
+  double mean_m = 0;  ///< between the poses of one scan in the two maps, each island after one rigid transform
+  double farthest_m = 0;
+  double mean_deg = 0;
+  double farthest_deg = 0;
+};
+
+/// Both know the same robots, in the same order. Scans that only one of them has are left out.
+[[nodiscard]] OrderEffect compare_orders(const Mapper& heard, const Mapper& stamped);
+
+}  // namespace helicoid
