@@ -155,7 +155,9 @@ std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& g
     if (is_known[pose.pose] || pose.pose >= b.value) continue;
     const double distance = pose.relative.T_a_b.distance();
     const double window = window_of(pose.relative, options);
-    if (distance > std::min(window, options.widest) + 1.0) continue;
+    // What is known well may show the same walls from some way off.
+    const bool is_narrow = confidence_interval(pose.relative.covariance).position <= options.narrow;
+    if (distance > std::max(std::min(window, options.widest) + 1.0, is_narrow ? options.narrow_reach : 0.0)) continue;
     near.push_back({distance, &pose});
   }
   std::sort(near.begin(), near.end(), [](const Near& x, const Near& y) {
@@ -206,13 +208,28 @@ struct Fit {
   }
 };
 
-Fit fit_from(const Map& map, const TwoPlaces& places, const PosePrior& prior, const LookAlikeOptions& options) {
+Fit fit_from(const Map& map, const TwoPlaces& places, const PosePrior& prior, double least_score,
+             double most_contradicted) {
   Fit fit;
   fit.alignment = align_scan(places.reference, places.points_b, prior, places.align);
-  if (!fit.alignment.usable() || fit.alignment.inlier_share < options.least_score) return fit;
+  if (!fit.alignment.usable() || fit.alignment.inlier_share < least_score) return fit;
   fit.contradicted = contradicted_share(map, places, fit.alignment.T_reference_scan);
-  fit.usable = fit.contradicted < options.most_contradicted;
+  fit.usable = fit.contradicted < most_contradicted;
   return fit;
+}
+Fit fit_from(const Map& map, const TwoPlaces& places, const PosePrior& prior, const LookAlikeOptions& options) {
+  return fit_from(map, places, prior, options.least_score, options.most_contradicted);
+}
+
+/// Where the map itself says how the two lie, it need not be the whole place that was seen from both: enough of it is,
+/// and next to nothing speaks against it.
+Fit fit_near(const Map& map, const TwoPlaces& places, const Candidate& candidate, const LookAlikeOptions& options) {
+  const Fit fit = fit_from(map, places, {candidate.T_a_b.T_a_b, candidate.T_a_b.covariance.inverse()},
+                           options.least_score_near, options.most_contradicted);
+  const double inliers = fit.alignment.inlier_share * static_cast<double>(places.points_b.size());
+  const bool is_whole = fit.alignment.inlier_share >= options.least_score;
+  const bool is_part = inliers >= options.least_part && fit.contradicted < options.most_contradicted_part;
+  return is_whole || is_part ? fit : Fit{};
 }
 
 /// The best fit, and the best of those apart from it.
@@ -266,7 +283,7 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
   if (confidence_interval(candidate.T_a_b.covariance).position > options.narrow) {
     fits = search_from_middle(map, places, candidate, options);
   } else {
-    fits.best = fit_from(map, places, {candidate.T_a_b.T_a_b, candidate.T_a_b.covariance.inverse()}, options);
+    fits.best = fit_near(map, places, candidate, options);
   }
   const Fit& best = fits.best;
   if (!best.usable) return std::nullopt;

@@ -10,7 +10,8 @@
 namespace helicoid {
 
 struct LookAlikeOptions {
-  double narrow = 0.5;         ///< if the map knows it this well (eq. 10), the match starts from there, metres
+  double narrow = 0.8;         ///< if the map knows it this well (eq. 10), the match starts from there, metres
+  double narrow_reach = 4;     ///< and is compared with what lies so far off, metres
   double widest = 20;          ///< windows are never wider, metres
   double widest_turn = 0.7;    ///< radians
   double sigmas = 3;           ///< the window's half-width, in standard deviations
@@ -27,6 +28,9 @@ struct LookAlikeOptions {
   double least_search_score = 0.6;
   double least_score = 0.62;  ///< inlier share of an alignment
   double most_contradicted = 0.12;
+  double least_score_near = 0.4;         ///< where the map knows it well, part of a place is enough,
+  double least_part = 150;               ///< if it has so many points
+  double most_contradicted_part = 0.02;  ///< and next to nothing speaks against it
 };
 
 /// What was seen about b: the points of the patches that its robot kept on the last few metres, in b's frame.
