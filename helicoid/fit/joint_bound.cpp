@@ -4,13 +4,11 @@
 #include <memory>
 
 #include "helicoid/fit/front_kernels.hpp"
+#include "helicoid/fit/pose_marks.hpp"
 
 namespace helicoid {
 
 namespace {
-
-/// One radian of heading counts as much as this many metres when near poses are chosen.
-constexpr double kMetresPerRadian = 1;
 
 bool is_confident(const BoundedPose& pose, const BoundOptions& options) {
   const ConfidenceInterval interval = confidence_interval(pose.relative.covariance);
@@ -21,21 +19,21 @@ bool is_confident(const BoundedPose& pose, const BoundOptions& options) {
 /// `candidates`; the reference is left out.
 std::vector<std::size_t> choose_tied(const InformationGraph& graph, std::span<const BoundedPose> candidates,
                                      std::size_t most) {
+  constexpr std::int32_t kTaken = -2;
   std::vector<std::pair<double, std::size_t>> ranked;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const Pose2& T = candidates[i].relative.T_a_b;
-    ranked.emplace_back(T.distance() + kMetresPerRadian * std::abs(T.yaw), i);
+    ranked.emplace_back(nearness(candidates[i].relative.T_a_b), i);
   }
   std::sort(ranked.begin(), ranked.end());
   ranked.resize(std::min(most, ranked.size()));
-  std::vector<std::int32_t> place(graph.size(), -1);
-  for (const auto& [distance, i] : ranked) place[candidates[i].pose] = static_cast<std::int32_t>(i);
+  PoseMarks place(graph.size());
+  for (const auto& [distance, i] : ranked) place.set(candidates[i].pose, static_cast<std::int32_t>(i));
   std::vector<std::size_t> tied{0};
   for (std::size_t next = 0; next < tied.size(); ++next) {
     for (const InformationGraph::Edge& edge : graph.edges(candidates[tied[next]].pose)) {
       if (place[edge.to] < 0) continue;
       tied.push_back(static_cast<std::size_t>(place[edge.to]));
-      place[edge.to] = -1;
+      place.set(edge.to, kTaken);
     }
   }
   tied.erase(tied.begin());
@@ -86,11 +84,10 @@ class JointInformation {
 
 JointInformation joint_information(const InformationGraph& graph, std::span<const BoundedPose> candidates,
                                    std::span<const std::size_t> tied, std::size_t known) {
-  constexpr std::int32_t kAbsent = -2;
-  constexpr std::int32_t kReference = -1;
-  std::vector<std::int32_t> place(graph.size(), kAbsent);
-  place[candidates[0].pose] = kReference;
-  for (std::size_t i = 0; i < tied.size(); ++i) place[candidates[tied[i]].pose] = static_cast<std::int32_t>(i);
+  constexpr std::int32_t kReference = -2;
+  PoseMarks place(graph.size());
+  place.set(candidates[0].pose, kReference);
+  for (std::size_t i = 0; i < tied.size(); ++i) place.set(candidates[tied[i]].pose, static_cast<std::int32_t>(i));
   JointInformation H(known, tied.size() - known);
   for (std::size_t i = 0; i < tied.size(); ++i) {
     const Pose2 T_b_ref = candidates[tied[i]].relative.T_a_b.inverse();
@@ -99,7 +96,7 @@ JointInformation joint_information(const InformationGraph& graph, std::span<cons
     for (const InformationGraph::Edge& edge : graph.edges(candidates[tied[i]].pose)) {
       const std::int32_t j = place[edge.to];
       // d T_b_other / d T_ref_b; each pair is seen from both of its ends, and each end adds its own block.
-      if (j == kAbsent) continue;
+      if (j == PoseMarks::kNone) continue;
       const Vector2d p_b_other =
           j == kReference ? T_b_ref.translation()
                           : T_b_ref * candidates[tied[static_cast<std::size_t>(j)]].relative.T_a_b.translation();
@@ -120,8 +117,8 @@ std::vector<BoundedPose> joint_bound(const InformationGraph& graph, std::span<co
                                      std::uint32_t reference, const BoundOptions& options,
                                      const JointBoundOptions& joint) {
   BoundOptions wide = options;
-  wide.position *= joint.slack;
-  wide.heading *= joint.slack;
+  wide.slack = joint.slack;
+  wide.nearest = joint.joint;
   std::vector<BoundedPose> candidates = tree_bound(graph, T_plane, reference, wide);
   const auto is_known = [&](std::size_t i) { return is_confident(candidates[i], options); };
   std::vector<std::size_t> tied = choose_tied(graph, candidates, joint.joint);

@@ -2,6 +2,7 @@
 // semi-definite terms, so leaving relations out can only enlarge a covariance. What is accepted on the bound is safe.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -15,19 +16,29 @@ class InformationGraph {
   struct Edge {
     std::uint32_t to = 0;
     Matrix3d information = Matrix3d::Zero();  ///< of T_from_to
-    double spread = 0;                        ///< a scalar size of its inverse: the length by which paths are chosen
     Matrix3d covariance = Matrix3d::Zero();
+  };
+  /// What is read of all edges when paths are looked for.
+  struct Way {
+    std::uint32_t to = 0;
+    double spread = 0;  ///< a scalar size of the edge's covariance: the length by which paths are chosen
   };
 
   std::uint32_t add_pose();
-  [[nodiscard]] std::size_t size() const { return edges_.size(); }
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
   /// Adds information about T_a_b, a != b; `T_a_b` is where it was linearised.
   void add(std::uint32_t a, std::uint32_t b, const Pose2& T_a_b, const Matrix3d& information);
-  [[nodiscard]] std::span<const Edge> edges(std::uint32_t pose) const { return edges_[pose]; }
+  [[nodiscard]] std::span<const Edge> edges(std::uint32_t pose) const { return nodes_[pose].edges; }
+  /// In the edges' order.
+  [[nodiscard]] std::span<const Way> ways(std::uint32_t pose) const { return nodes_[pose].ways; }
 
  private:
   void accumulate(std::uint32_t from, std::uint32_t to, const Matrix3d& information);
-  std::vector<std::vector<Edge>> edges_;
+  struct Node {
+    std::vector<Edge> edges;
+    std::vector<Way> ways;
+  };
+  std::vector<Node> nodes_;
 };
 
 struct BoundOptions {
@@ -38,7 +49,16 @@ struct BoundOptions {
   /// The noise floor of a scan, once for either end (design 5.3).
   double floor_position = 0.008;
   double floor_heading = 0.0060;
+  /// Poses in doubt are found, too: those that are within so many times the limits, and of them only such as may be
+  /// among so many poses that lie nearest to the reference.
+  double slack = 1;
+  std::size_t nearest = 0;
 };
+
+/// By what near poses are chosen, metres: one radian of heading counts as much as one.
+[[nodiscard]] inline double nearness(const Pose2& T_reference_pose) {
+  return T_reference_pose.translation().norm() + std::abs(T_reference_pose.yaw);
+}
 
 /// A pose within the limits and an upper bound of its covariance relative to the reference, in the reference's frame.
 struct BoundedPose {

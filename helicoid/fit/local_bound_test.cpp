@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "helicoid/base/random.hpp"
 
@@ -197,6 +198,32 @@ TEST(LocalBound, KeepsToItsLimits) {
       EXPECT_LT(interval.heading, options.heading);
     }
   }
+}
+
+TEST(LocalBound, FollowsPosesInDoubtOnlyWhereTheyMayBeAmongTheNearest) {
+  constexpr std::size_t kNearest = 5;
+  std::size_t doubtful = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Graph graph = random_graph(seed);
+    BoundOptions options = without_floor(0.5, 0.2);
+    options.slack = 3;
+    options.nearest = kNearest;
+    const auto bounded = tree_bound(graph.information(), graph.poses, 0, options);
+    for (std::size_t i = 1; i < bounded.size(); ++i) {
+      const ConfidenceInterval interval = confidence_interval(bounded[i].relative.covariance);
+      EXPECT_LT(interval.position, options.slack * options.position);
+      EXPECT_LT(interval.heading, options.slack * options.heading);
+      if (interval.position < options.position && interval.heading < options.heading) continue;
+      ++doubtful;
+      // Of those that are found before it fewer than so many lie nearer.
+      const auto nearer = std::count_if(bounded.begin() + 1, bounded.begin() + static_cast<std::ptrdiff_t>(i),
+                                        [&](const BoundedPose& other) {
+                                          return nearness(other.relative.T_a_b) < nearness(bounded[i].relative.T_a_b);
+                                        });
+      EXPECT_LT(nearer, static_cast<std::ptrdiff_t>(kNearest));
+    }
+  }
+  EXPECT_GT(doubtful, 0U);
 }
 
 TEST(LocalBound, CountsTheNoiseFloorOfEitherScanOnce) {

@@ -11,11 +11,12 @@ namespace helicoid {
 [[nodiscard]] inline float approximate_atan2(float y, float x) {
   const float ax = std::abs(x);
   const float ay = std::abs(y);
-  const float t = std::min(ax, ay) / std::max({ax, ay, 1e-30F});
+  const float t = std::min(ax, ay) / std::max(std::max(ax, ay), 1e-30F);
   const float u = t * t;
   float angle = t * (0.9998660F + u * (-0.3302995F + u * (0.1801410F + u * (-0.0851330F + u * 0.0208351F))));
-  if (ay > ax) angle = 0.5F * std::numbers::pi_v<float> - angle;
-  if (x < 0) angle = std::numbers::pi_v<float> - angle;
+  // Chosen, not branched to: so that a loop over many is one of vectors.
+  angle = ay > ax ? 0.5F * std::numbers::pi_v<float> - angle : angle;
+  angle = x < 0 ? std::numbers::pi_v<float> - angle : angle;
   return y < 0 ? -angle : angle;
 }
 

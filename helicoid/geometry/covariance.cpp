@@ -29,7 +29,8 @@ ConfidenceInterval confidence_interval(const Matrix3d& covariance) {
   const double xx = covariance(0, 0);
   const double yy = covariance(1, 1);
   const double xy = covariance(0, 1);
-  const double largest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+  const double off = 0.5 * (xx - yy);
+  const double largest = 0.5 * (xx + yy) + std::sqrt(off * off + xy * xy);
   return {1.96 * std::sqrt(std::max(0.0, largest)), 1.96 * std::sqrt(std::max(0.0, covariance(2, 2)))};
 }
 

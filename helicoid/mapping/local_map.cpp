@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
+#include "helicoid/base/wide_lanes.hpp"
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/sensor/beam_finder.hpp"
 
@@ -16,9 +18,13 @@ namespace {
 constexpr double kMetresPerRadian = 1.5;
 
 double view_distance(const Pose2& T_anchor_a, const Pose2& T_anchor_b) {
-  return std::hypot(T_anchor_a.x - T_anchor_b.x, T_anchor_a.y - T_anchor_b.y) +
+  return (T_anchor_a.translation() - T_anchor_b.translation()).norm() +
          kMetresPerRadian * std::abs(wrap_angle(T_anchor_a.yaw - T_anchor_b.yaw));
 }
+
+/// Views no farther apart are as good as one. Where many laps left their patches, the very nearest is another one at
+/// every other step.
+constexpr double kNearEnough = 0.5;
 
 /// Surfaces of a scan that stand for all of them.
 constexpr std::size_t kSamples = 24;
@@ -30,9 +36,9 @@ constexpr float kLeastFacing = 0.1F;
 /// An older patch is preferred if it saw this share of what the best one saw.
 constexpr float kMuch = 0.5F;
 
-/// Surfaces of the scan in the anchor's frame; arrays of one length.
+/// Surfaces of the scan in the anchor's frame; arrays of one length, zero from `size` on.
 struct Surfaces {
-  std::array<float, kSamples> x, y, nx, ny;
+  std::array<float, kSamples> x{}, y{}, nx{}, ny{};
   std::size_t size = 0;
 };
 
@@ -52,24 +58,45 @@ Surfaces sample_surfaces(const ScanPoints& points, const Pose2& T_anchor_robot) 
   return surfaces;
 }
 
+/// The surfaces as a laser would meet them; arrays of one length.
+struct Sight {
+  std::array<float, kSamples> distance;
+  std::array<float, kSamples> beam;  ///< -1 where the surface faces away
+};
+
+/// Where a laser stands in the anchor's frame.
+struct LaserPlace {
+  float x, y, cosine, sine;
+};
+
+/// All surfaces, whatever is not one: the loop is then one of vectors.
+HELICOID_WIDE_LANES
+void look_at(const Surfaces& surfaces, LaserPlace at, BeamFinder finder, Sight& sight) {
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const float dx = surfaces.x[i] - at.x;
+    const float dy = surfaces.y[i] - at.y;
+    const float distance = std::sqrt(dx * dx + dy * dy);
+    const float facing = -(surfaces.nx[i] * dx + surfaces.ny[i] * dy);
+    const float beam = finder.at(at.cosine * dx + at.sine * dy, at.cosine * dy - at.sine * dx);
+    sight.distance[i] = distance;
+    sight.beam[i] = facing < kLeastFacing * distance ? -1.0F : beam;
+  }
+}
+
 /// Which of the surfaces a patch saw from their side: bit by bit.
 std::uint32_t seen_by(const Patch& patch, const Pose2& T_anchor_patch, const Surfaces& surfaces) {
   const Pose2 T_anchor_laser = T_anchor_patch * patch.scan.T_robot_laser;
   const Eigen::Vector2f at = T_anchor_laser.translation().cast<float>();
-  const Eigen::Matrix2f turn = T_anchor_laser.rotation().transpose().cast<float>();
-  const BeamFinder finder(patch.laser);
+  const Eigen::Vector2f ahead = T_anchor_laser.rotation().col(0).cast<float>();
+  Sight sight;
+  look_at(surfaces, {at.x(), at.y(), ahead.x(), ahead.y()}, BeamFinder(patch.laser), sight);
+  const auto beams = static_cast<float>(patch.scan.ranges.size());
   std::uint32_t seen = 0;
   for (std::size_t i = 0; i < surfaces.size; ++i) {
-    const float dx = surfaces.x[i] - at.x();
-    const float dy = surfaces.y[i] - at.y();
-    const float distance = std::sqrt(dx * dx + dy * dy);
-    const float facing = -(surfaces.nx[i] * dx + surfaces.ny[i] * dy);
-    if (facing < kLeastFacing * distance) continue;
-    const float at_beam = finder.at(turn(0, 0) * dx + turn(0, 1) * dy, turn(1, 0) * dx + turn(1, 1) * dy);
-    const auto beam = static_cast<int>(std::floor(at_beam + 0.5F));
-    if (beam < 0 || beam >= static_cast<int>(patch.scan.ranges.size())) continue;
+    const float beam = sight.beam[i] + 0.5F;
+    if (!(beam >= 0 && beam < beams)) continue;
     const float range = patch.scan.ranges[static_cast<std::size_t>(beam)];
-    if (std::abs(range - distance) < kRangeTolerance + kRangeShare * distance) seen |= 1U << i;
+    if (std::abs(range - sight.distance[i]) < kRangeTolerance + kRangeShare * sight.distance[i]) seen |= 1U << i;
   }
   return seen;
 }
@@ -125,9 +152,27 @@ LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId a
   return find_local_map(map, graph, anchor, bound);
 }
 
+LocalMap distinct_places(const LocalMap& local, PatchId last_kept) {
+  std::vector<std::size_t> oldest_first(local.size());
+  std::iota(oldest_first.begin(), oldest_first.end(), 0);
+  std::sort(oldest_first.begin(), oldest_first.end(),
+            [&](std::size_t i, std::size_t j) { return local[i].patch < local[j].patch; });
+  std::vector<bool> is_distinct(local.size(), false);
+  std::vector<Pose2> places;
+  for (const std::size_t i : oldest_first) {
+    const Pose2& T = local[i].T_anchor_patch;
+    const auto same = [&](const Pose2& place) { return view_distance(place, T) < kNearEnough; };
+    is_distinct[i] = std::none_of(places.begin(), places.end(), same);
+    if (is_distinct[i]) places.push_back(T);
+  }
+  LocalMap distinct;
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (i == 0 || is_distinct[i] || local[i].patch == last_kept) distinct.push_back(local[i]);
+  }
+  return distinct;
+}
+
 std::optional<std::size_t> choose_anchor(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot) {
-  // Where many laps left their patches, the very nearest is another one at every other step.
-  constexpr double kNearEnough = 0.5;
   constexpr double kMuchNearer = 0.8;
   constexpr double kNearer = 0.05;
   const auto knows = [&](const LocalPatch& p) {

@@ -28,6 +28,10 @@ using LocalMap = std::vector<LocalPatch>;
 [[nodiscard]] LocalMap find_local_map(const Map& map, const InformationGraph& graph, PatchId anchor,
                                       const MapperOptions& options);
 
+/// Of those that show the same place from the same side the oldest, so that it costs no more to find one's way where
+/// many laps left their patches. The anchor first and `last_kept` in any case.
+[[nodiscard]] LocalMap distinct_places(const LocalMap& local, PatchId last_kept);
+
 /// The patches nearest to a robot at this pose, those that look the same way first.
 [[nodiscard]] std::vector<LocalPatch> nearest_views(const LocalMap& local, const Pose2& T_anchor_robot,
                                                     std::size_t most);

@@ -40,6 +40,25 @@ TEST(LocalMap, HoldsAllKnownPatchesAboutTheAnchorHoweverManyLapsLeftThere) {
   EXPECT_EQ(local.size(), near);
 }
 
+TEST(LocalMap, HasOnePatchAPlaceTheOldestHoweverManyLapsLeftThere) {
+  const ManyLaps laps;
+  const Map& map = laps.builder.map;
+  const PatchId anchor{ManyLaps::kOfLap * 3};
+  const PatchId last_kept{ManyLaps::kOfLap * 5 + 1};
+  const LocalMap local = find_local_map(map, information_graph(map), anchor, MapperOptions{});
+  const LocalMap places = distinct_places(local, last_kept);
+  ASSERT_FALSE(places.empty());
+  EXPECT_EQ(places[0].patch, anchor);
+  std::size_t of_first_lap = 0;
+  for (const LocalPatch& p : places) {
+    const bool is_oldest = p.patch.value < ManyLaps::kOfLap;
+    of_first_lap += is_oldest ? 1 : 0;
+    EXPECT_TRUE(is_oldest || p.patch == anchor || p.patch == last_kept);
+  }
+  // Of each place within the local map's reach.
+  EXPECT_EQ(of_first_lap, local.size() / ManyLaps::kLaps);
+}
+
 /// A robot that looks the way its patches do, between two of them one metre apart.
 std::size_t stands_on(double metres_beyond_the_first) {
   const ManyLaps laps;

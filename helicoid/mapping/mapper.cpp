@@ -45,11 +45,11 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   follow(robot, motion, prior, alignment, laser);
   if (points.size() == 0) ++counts.empty_scans;
   // Where no patch knows the robot's place, the scan makes one that does: r lies inside s (III-A).
-  const std::optional<std::size_t> ground = choose_anchor(map, robot.local, robot.pose.T_patch_robot);
+  const std::optional<LocalPatch> ground = find_ground(robot);
   if ((!ground && alignment.usable()) || is_worth_keeping(robot, alignment, scan, points.size())) {
     result.new_patch = keep(robot, event, scan);
   } else if (ground) {
-    stand_on(robot, robot.local[*ground]);
+    stand_on(robot, *ground);
   }
   result.pose = robot.pose;
   editor.append_scan(event.robot, {event.stamp, robot.pose, map.T_plane_patch(robot.pose.patch), robot.covariance});

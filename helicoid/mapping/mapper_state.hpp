@@ -49,6 +49,7 @@ struct Mapper::State {
   void add_relation(const Relation& relation);
   /// Loop closing is set off (IV-B).
   bool compares_places() const { return options.closures && (options.look_alikes || sighting_acted_on); }
+  [[nodiscard]] std::optional<LocalPatch> find_ground(const RobotState& robot) const;
   void stand_on(RobotState& robot, const LocalPatch& ground);
   const LaserModel& laser_of(RobotId robot, const Scan& scan) const { return map.robot(robot).lasers[scan.laser]; }
 };

@@ -19,7 +19,7 @@ constexpr double kShares[] = {0.45, 0.85};
 
 bool is_far_from_all(const LocalMap& local, const Pose2& T_anchor_robot, const MapperOptions& options, double share) {
   return std::none_of(local.begin(), local.end(), [&](const LocalPatch& p) {
-    const double distance = std::hypot(p.T_anchor_patch.x - T_anchor_robot.x, p.T_anchor_patch.y - T_anchor_robot.y);
+    const double distance = (p.T_anchor_patch.translation() - T_anchor_robot.translation()).norm();
     return distance < share * options.patch_spacing &&
            std::abs(wrap_angle(p.T_anchor_patch.yaw - T_anchor_robot.yaw)) < share * options.patch_turn;
   });

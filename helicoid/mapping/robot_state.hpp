@@ -20,6 +20,7 @@ struct RobotState {
   /// Of pose.T_patch_robot, in the anchor's frame: what the matches have left open so far.
   Matrix3d covariance = Matrix3d::Zero();
   LocalMap local;                 ///< about the anchor
+  LocalMap places;                ///< of it what scans are matched with and the robot may stand on
   Reference reference;            ///< in the anchor's frame
   Pose2 T_anchor_reference_view;  ///< from where the reference was chosen
   Pose2 T_anchor_coverage_view;   ///< where coverage was looked at last

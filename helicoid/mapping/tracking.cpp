@@ -21,11 +21,12 @@ void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points,
   }
   if (robot.stale) {
     robot.local = find_local_map(map, graph, robot.pose.patch, options);
+    robot.places = distinct_places(robot.local, robot.last_kept);
     robot.T_anchor_coverage_view = T_anchor_robot;
     robot.stale = false;
   }
   const std::vector<LocalPatch> views =
-      select_views(map, robot.local, points, T_anchor_robot, robot.last_kept, options.reference_views);
+      select_views(map, robot.places, points, T_anchor_robot, robot.last_kept, options.reference_views);
   robot.reference.build(reference_parts(map, views));
   robot.T_anchor_reference_view = T_anchor_robot;
 }
@@ -100,6 +101,14 @@ void Mapper::State::follow(RobotState& robot, const Motion& motion, const PosePr
     T_anchor_robot = prior.T_reference_scan;
   }
   robot.covariance = information.inverse();
+}
+
+std::optional<LocalPatch> Mapper::State::find_ground(const RobotState& robot) const {
+  // Another patch of the same place may know what its oldest does not.
+  for (const LocalMap* among : {&robot.places, &robot.local}) {
+    if (const auto ground = choose_anchor(map, *among, robot.pose.T_patch_robot)) return (*among)[*ground];
+  }
+  return std::nullopt;
 }
 
 void Mapper::State::stand_on(RobotState& robot, const LocalPatch& ground) {
