@@ -140,6 +140,25 @@ TEST(Formats, DescribesEveryKeyOfASimulation) {
   expect_same(keys_of(simulation), documented_keys("simulation.json"));
 }
 
+TEST(Formats, DescribesEveryKeyOfAnExploration) {
+  const Sandbox box;
+  const std::string command = box.write("orders", "1 robot1 pause\n");
+  const Json summary = json_of({"explore", "room", "--longest", "3", "--orders", command, "--out", box / "site"});
+  Words documented = documented_keys("Exploration's summary.json");
+  documented.merge(documented_keys("summary.json"));
+  Words keys = keys_of(summary);
+  // A map's options are others; lists that are empty here.
+  std::erase_if(documented, [](const std::string& key) {
+    return key == "options.laser" || key == "options.every" || key == "options.from" || key == "options.to" ||
+           key == "options.closures" || key == "options.decisions" || key == "options.online";
+  });
+  for (const std::string& key : documented) {
+    if (key.starts_with("frontiers_left[]") || key.starts_with("skipped[]") || key == "inputs[]" || key == "warnings[]")
+      keys.insert(key);
+  }
+  expect_same(keys, documented);
+}
+
 TEST(Formats, DescribesEveryKeyOfLies) {
   const Sandbox box;
   const std::string sim = box.simulate("sim", {"--robots", "2"});

@@ -44,50 +44,65 @@ Result<std::vector<ExperimentPicture>> draw_before(const World& world, std::uint
   return pictures;
 }
 
-Result<Outcome> explore_by_two_doors(std::uint64_t seed) {
-  const Result<World> world = load_world("office");
-  if (!world) return tl::unexpected(world.error());
-  ExploreJob job = job_of(*world, seed);
-  std::size_t most_islands = 0;  // after the robots of either door have seen each other
+/// A run and when its islands were joined.
+struct Entered {
+  ExploreRun run;
+  std::size_t most_islands = 0;  ///< after the robots of either door have seen each other
+  double merged_at = 0;          ///< seconds
+};
+
+Result<Entered> enter(const World& world, std::uint64_t seed) {
+  constexpr double kAtDoor = 30;  // seconds
+  std::size_t most_islands = 0;
   double merged_at = 0;
+  ExploreJob job = job_of(world, seed);
   job.observer = [&](double now, const LiveSimulation&, const TeamPilot& pilot) {
     const std::size_t islands = pilot.map().islands().size();
-    constexpr double kDoor = 30;  // seconds
-    if (now > kDoor) most_islands = std::max(most_islands, islands);
+    if (now > kAtDoor) most_islands = std::max(most_islands, islands);
     if (islands == 1 && merged_at == 0) merged_at = now;
     return true;
   };
   Result<ExploreRun> run = run_exploration(job);
   if (!run) return tl::unexpected(run.error());
-  const Result<BuildingTruth> truth =
-      BuildingTruth::of(*world, std::span(world->starts).first(kRobots), job.simulation.radius);
-  if (!truth) return tl::unexpected(truth.error());
-  const Map& map = run->map.mapper.map();
-  const MapQuality quality = truth->judge(map, run->recording.tracks());
-  const Ledger& ledger = run->map.mapper.ledger();
+  return Entered{std::move(*run), most_islands, merged_at};
+}
+
+std::vector<Metric> metrics_of(const Entered& entered, const MapQuality& quality) {
+  const ExploreRun& run = entered.run;
+  const Ledger& ledger = run.map.mapper.ledger();
   const auto sightings = std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) {
     return h.source == HypothesisSource::sighting && h.state == HypothesisState::accepted;
   });
-  Outcome outcome{{{"islands_before_count", static_cast<double>(most_islands)},
-                   {"sightings_count", static_cast<double>(sightings)},
-                   {"merges_count", static_cast<double>(run->merges)},
-                   {"islands_after_count", static_cast<double>(map.islands().size())},
-                   {"explored_count", run->last_plan.end_state == EndState::explored ? 1.0 : 0.0},
-                   {"mapped_percent", 100 * quality.mapped_fraction},
-                   {"operator_actions_count", static_cast<double>(run->operator_actions)},
-                   {"collisions_count", static_cast<double>(run->contacts.size())},
-                   {"realtime_ratio", run->realtime_factor()},
-                   {"wall_rms_m", quality.wall_rms_m},
-                   {"wall_recall_percent", 100 * quality.wall_recall},
-                   {"merged_at_s", merged_at},
-                   {"explored_s", run->sim_s}},
-                  {}};
-  if (seed == 1) {
-    Result<std::vector<ExperimentPicture>> before = draw_before(*world, seed, merged_at);
-    if (!before) return tl::unexpected(before.error());
-    outcome.pictures = std::move(*before);
-    draw(map, "after", outcome.pictures);
-  }
+  return {{"islands_before_count", static_cast<double>(entered.most_islands)},
+          {"sightings_count", static_cast<double>(sightings)},
+          {"merges_count", static_cast<double>(run.merges)},
+          {"islands_after_count", static_cast<double>(run.map.mapper.map().islands().size())},
+          {"explored_count", run.last_plan.end_state == EndState::explored ? 1.0 : 0.0},
+          {"mapped_percent", 100 * quality.mapped_fraction},
+          {"operator_actions_count", static_cast<double>(run.operator_actions)},
+          {"collisions_count", static_cast<double>(run.contacts.size())},
+          {"realtime_ratio", run.realtime_factor()},
+          {"wall_rms_m", quality.wall_rms_m},
+          {"wall_recall_percent", 100 * quality.wall_recall},
+          {"merged_at_s", entered.merged_at},
+          {"explored_s", run.sim_s}};
+}
+
+Result<Outcome> explore_by_two_doors(std::uint64_t seed) {
+  const Result<World> world = load_world("office");
+  if (!world) return tl::unexpected(world.error());
+  const Result<Entered> entered = enter(*world, seed);
+  if (!entered) return tl::unexpected(entered.error());
+  const Result<BuildingTruth> truth =
+      BuildingTruth::of(*world, std::span(world->starts).first(kRobots), LiveOptions{}.radius);
+  if (!truth) return tl::unexpected(truth.error());
+  const Map& map = entered->run.map.mapper.map();
+  Outcome outcome{metrics_of(*entered, truth->judge(map, entered->run.recording.tracks())), {}};
+  if (seed != 1) return outcome;
+  Result<std::vector<ExperimentPicture>> before = draw_before(*world, seed, entered->merged_at);
+  if (!before) return tl::unexpected(before.error());
+  outcome.pictures = std::move(*before);
+  draw(map, "after", outcome.pictures);
   return outcome;
 }
 
