@@ -6,7 +6,7 @@ const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> all{calibration_experiment(), crispness_experiment(), laps_experiment(),
                                            lies_experiment(),        mrclam_experiment(),    outliers_experiment(),
                                            playback_experiment(),    relations_experiment(), spiral_experiment(),
-                                           teams_experiment(),       undo_experiment()};
+                                           swarm_experiment(),       teams_experiment(),     undo_experiment()};
   return all;
 }
 
