@@ -112,9 +112,9 @@ class Exploration {
     pilot_.plan(stamp(), orders);
     over_ = pilot_.team_plan().finished;
     for (std::size_t i = 0; i < was_alive_.size(); ++i) {
-      if (is_heard(i)) continue;
+      if (is_heard(i) || !was_alive_[i]) continue;
       on_board_[i].plan(stamp());
-      over_ = over_ && (!was_alive_[i] || on_board_[i].team_plan().finished);
+      over_ = over_ && on_board_[i].team_plan().finished;
     }
     if (job_.observer && !job_.observer(simulation_.now(), simulation_, pilot_)) over_ = true;
   }

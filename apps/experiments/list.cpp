@@ -7,7 +7,7 @@ const std::vector<Experiment>& experiments() {
                                            fig6_experiment(),      laps_experiment(),        lies_experiment(),
                                            mrclam_experiment(),    outliers_experiment(),    playback_experiment(),
                                            radio_experiment(),     relations_experiment(),   spiral_experiment(),
-                                           teams_experiment(),     undo_experiment()};
+                                           swarm_experiment(),     teams_experiment(),       undo_experiment()};
   return all;
 }
 

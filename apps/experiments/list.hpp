@@ -17,6 +17,7 @@ namespace helicoid {
 [[nodiscard]] Experiment radio_experiment();
 [[nodiscard]] Experiment relations_experiment();
 [[nodiscard]] Experiment spiral_experiment();
+[[nodiscard]] Experiment swarm_experiment();
 [[nodiscard]] Experiment teams_experiment();
 [[nodiscard]] Experiment undo_experiment();
 
