@@ -188,7 +188,9 @@ Frontier FrontierFinder::judge(const Map& map, const EdgeCluster& cluster, std::
   GroundWindow window = window_about(map, cluster, patches);
   GroundWindow wide = window;
   wide.mark_near_obstacles(static_cast<int>(options_.robot_radius / kGroundCell));
-  const std::optional<ManifoldPoint> goal = GoalSearch(map, wide, patches, options_).find(edge, travel);
+  std::optional<ManifoldPoint> goal = GoalSearch(map, wide, patches, options_).find(edge, travel);
+  // Who cannot get to an edge past what stands there, or has seen only a sliver along it, can look from before it.
+  if (!goal) goal = GoalSearch(map, window, patches, options_).find(edge, travel);
   if (goal) frontier.goal = *goal;
   const Vector2d from_plane = project(map, frontier.goal);
   const double heading = heading_to(cluster, from_plane);
