@@ -39,6 +39,7 @@ struct Hypothesis {
   double score = 0;                    ///< share of b's points that lie on a's surfaces
   double ambiguity = 0;                ///< score of the second-best placement over the best one's: 1 = no telling
   double contradicted = 0;             ///< share of b's points that lie deep in what a's surroundings saw as free
+  bool foretold = false;               ///< the map itself said it, if less well: it needs no others that agree
   std::vector<std::size_t> supports;   ///< earlier entries that agree with this one, by their place in the ledger
   std::vector<std::size_t> conflicts;  ///< earlier ones that cannot be true together with it
   DecidedBy decided_by = DecidedBy::nobody;

@@ -272,6 +272,23 @@ Fits search_from_middle(const Map& map, const TwoPlaces& places, const Candidate
 
 }  // namespace
 
+namespace {
+
+/// True if the two lie as the map had it (chi^2), all three degrees of freedom were matched and next to nothing speaks
+/// against it: in a window so small there is no other place to be taken for this one.
+bool is_foretold(const Candidate& candidate, const TwoPlaces& places, const Fit& fit, const LookAlikeOptions& options) {
+  constexpr double kChi2 = 11.345;  // 99 % at three degrees of freedom
+  if (confidence_interval(candidate.T_a_b.covariance).position > options.foretold) return false;
+  if (fit.alignment.status != AlignStatus::aligned || fit.contradicted >= options.most_contradicted_part) return false;
+  if (fit.alignment.inlier_share * static_cast<double>(places.points_b.size()) < options.least_part) return false;
+  const Pose2& T_map = candidate.T_a_b.T_a_b;
+  const Pose2& T = fit.alignment.T_reference_scan;
+  const Vector3d difference(T.x - T_map.x, T.y - T_map.y, wrap_angle(T.yaw - T_map.yaw));
+  return difference.dot(candidate.T_a_b.covariance.inverse() * difference) < kChi2;
+}
+
+}  // namespace
+
 double merit_of(const Hypothesis& h, const LookAlikeOptions& options) {
   return h.score * std::max(0.0, 1 - h.contradicted / options.most_contradicted);
 }
@@ -302,6 +319,7 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
                                         noise_floor(laser_b.floor_position, laser_b.floor_heading));
   h.score = alignment.inlier_share;
   h.contradicted = best.contradicted;
+  h.foretold = is_foretold(candidate, places, best, options);
   return h;
 }
 

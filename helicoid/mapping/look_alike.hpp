@@ -28,6 +28,7 @@ struct LookAlikeOptions {
   double least_search_score = 0.6;
   double least_score = 0.62;  ///< inlier share of an alignment
   double most_contradicted = 0.12;
+  double foretold = 0.5;  ///< if the map knows it this well (eq. 10) and the match agrees, one is enough, metres
   double least_score_near = 0.4;         ///< where the map knows it well, part of a place is enough,
   double least_part = 150;               ///< if it has so many points
   double most_contradicted_part = 0.02;  ///< and next to nothing speaks against it

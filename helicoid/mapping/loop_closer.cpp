@@ -89,7 +89,8 @@ std::vector<std::size_t> LoopCloser::look_about(const Map& map, const Informatio
   std::vector<std::size_t> accepted;
   for (Hypothesis& h : found) {
     const std::vector<std::size_t> now =
-        enter(map, graph, about_b, std::move(h), {options_.least_agreeing, options_.least_way});
+        enter(map, graph, about_b, std::move(h),
+              h.foretold ? kForetold : Quorum{options_.least_agreeing, options_.least_way});
     accepted.insert(accepted.end(), now.begin(), now.end());
   }
   return accepted;
@@ -175,7 +176,8 @@ std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agre
     ledger_[i].state = HypothesisState::accepted;
     ledger_[i].decided_by = DecidedBy::evidence;
     ledger_[i].decided_with = agreeing.back();
-    ledger_[i].reason = "agrees with others of the same passage";
+    ledger_[i].reason = agreeing.size() > 1 ? "agrees with others of the same passage"
+                                            : "matches, and lies where the map had it already";
     accepted.push_back(i);
   }
   return accepted;

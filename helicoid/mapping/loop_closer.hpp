@@ -69,6 +69,7 @@ class LoopCloser {
     std::size_t agreeing;
     double way;
   };
+  static constexpr Quorum kForetold{1, 0};
   /// Enters it; those that are accepted now.
   std::vector<std::size_t> enter(const Map& map, const InformationGraph& graph, std::span<const BoundedPose> about_b,
                                  Hypothesis found, const Quorum& quorum);
