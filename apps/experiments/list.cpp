@@ -3,10 +3,10 @@
 namespace helicoid {
 
 const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> all{calibration_experiment(), crispness_experiment(), laps_experiment(),
-                                           lies_experiment(),        mrclam_experiment(),    outliers_experiment(),
-                                           playback_experiment(),    relations_experiment(), spiral_experiment(),
-                                           teams_experiment(),       undo_experiment()};
+  static const std::vector<Experiment> all{
+      calibration_experiment(),    crispness_experiment(), laps_experiment(),     lies_experiment(),
+      mrclam_experiment(),         outliers_experiment(),  playback_experiment(), relations_experiment(),
+      retro_traverse_experiment(), spiral_experiment(),    teams_experiment(),    undo_experiment()};
   return all;
 }
 

@@ -13,6 +13,7 @@ namespace helicoid {
 [[nodiscard]] Experiment outliers_experiment();
 [[nodiscard]] Experiment playback_experiment();
 [[nodiscard]] Experiment relations_experiment();
+[[nodiscard]] Experiment retro_traverse_experiment();
 [[nodiscard]] Experiment spiral_experiment();
 [[nodiscard]] Experiment teams_experiment();
 [[nodiscard]] Experiment undo_experiment();
