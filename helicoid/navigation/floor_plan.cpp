@@ -88,6 +88,19 @@ void raster_patches(FloorPlan& plan, const Map& map, const FloorPlan* before) {
   }
 }
 
+/// Neighbours, and what a robot drove from one to the next: it was all floor, however weakly scans tell how long.
+Neighbours with_ways(const Map& map, const Neighbours& neighbours) {
+  Neighbours joined = neighbours;
+  joined.resize(map.patch_count());
+  for (const Relation& relation : map.relations()) {
+    if (relation.kind != RelationKind::odometry) continue;
+    joined[relation.a.index()].push_back(relation.b);
+    joined[relation.b.index()].push_back(relation.a);
+  }
+  for (std::vector<PatchId>& of_patch : joined) std::sort(of_patch.begin(), of_patch.end());
+  return joined;
+}
+
 /// Tiles with their patches, not laid yet.
 std::vector<FloorTile> group_patches(const FloorPlan& plan, const Neighbours& neighbours) {
   struct Entry {
@@ -217,7 +230,7 @@ FloorPlan make_floor_plan(const Map& map, const Neighbours& neighbours, const Na
   if (before != nullptr) plan.footsteps = before->footsteps;
   plan.footsteps.read(map);
   raster_patches(plan, map, before);
-  std::vector<FloorTile> tiles = group_patches(plan, neighbours);
+  std::vector<FloorTile> tiles = group_patches(plan, with_ways(map, neighbours));
   put_footsteps(plan, tiles);
   for (FloorTile& tile : tiles) {
     std::shared_ptr<const FloorTile> old = before != nullptr ? same_tile(*before, tile) : nullptr;
