@@ -1,6 +1,5 @@
 #include "apps/live_mapping.hpp"
 
-#include "apps/map_run.hpp"
 #include "helicoid/io/laser_file.hpp"
 #include "helicoid/simulation/simulator.hpp"
 
@@ -36,9 +35,7 @@ LiveMapping LiveMapping::again() const {
 }
 
 void LiveMapping::hear(const Event& event) {
-  const double before = thread_cpu_seconds();
   const Step step = mapper_.process(event);
-  mapper_cpu_s_ += thread_cpu_seconds() - before;
   heard_.push_back(event);
   const auto* scan = std::get_if<Scan>(&event.body);
   if (scan == nullptr) return;

@@ -30,8 +30,6 @@ class LiveMapping {
   [[nodiscard]] const ManifoldPose& pose(std::size_t robot) const { return poses_[robot]; }
   /// Where each of a robot's scans was truly taken, as map().robot(id).trajectory has them.
   [[nodiscard]] std::span<const Pose2> truth(std::size_t robot) const { return truth_[robot]; }
-  /// CPU seconds of the mapper.
-  [[nodiscard]] double mapper_cpu_s() const { return mapper_cpu_s_; }
 
  private:
   LiveMapping(LiveSimulation simulation, const MapperOptions& mapper);
@@ -44,7 +42,6 @@ class LiveMapping {
   std::vector<Scan> scans_;
   std::vector<ManifoldPose> poses_;
   std::vector<std::vector<Pose2>> truth_;
-  double mapper_cpu_s_ = 0;
 };
 
 }  // namespace helicoid
