@@ -151,10 +151,14 @@ TrackedScan Trajectory::read(std::size_t stretch, std::size_t i) const {
   const Ground& ground = grounds_[on.ground];
   const Place& place = blocks_[i / kBlock][i % kBlock];
   const auto yaw = static_cast<std::int16_t>(place.yaw);
-  return {last_before(clocks_, i)->stamp + 1e-6 * whole(place.microseconds),
+  return {stamp(i),
           {ground.patch, {long_float(place.x), long_float(place.y), yaw / kHeadings}},
           ground.T_island_patch,
           covariance_of(place)};
+}
+
+double Trajectory::stamp(std::size_t i) const {
+  return last_before(clocks_, i)->stamp + 1e-6 * whole(blocks_[i / kBlock][i % kBlock].microseconds);
 }
 
 TrackedScan Trajectory::operator[](std::size_t i) const {

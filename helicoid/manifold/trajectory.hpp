@@ -60,6 +60,8 @@ class Trajectory {
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] TrackedScan operator[](std::size_t i) const;
+  /// The scan's stamp alone.
+  [[nodiscard]] double stamp(std::size_t i) const;
   [[nodiscard]] TrackedScan front() const { return (*this)[0]; }
   [[nodiscard]] TrackedScan back() const { return (*this)[size() - 1]; }
   [[nodiscard]] Iterator begin() const { return {*this, 0}; }

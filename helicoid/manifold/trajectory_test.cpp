@@ -71,6 +71,7 @@ TEST(Trajectory, AnEntryIsTheSameByItsPlaceAndInARow) {
   std::size_t i = 0;
   for (const TrackedScan& scan : trajectory) {
     EXPECT_EQ(scan.stamp, trajectory[i].stamp);
+    EXPECT_EQ(scan.stamp, trajectory.stamp(i));
     EXPECT_EQ(scan.pose, trajectory[i++].pose);
   }
 }

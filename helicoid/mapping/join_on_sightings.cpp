@@ -21,8 +21,7 @@ IslandId island_of(const Map& map, const ManifoldPose& pose) {
 }
 
 bool is_ordered(const LoopCloser& closer, const SightingRecord& record) {
-  const Hypothesis& h = closer.ledger()[record.entry];
-  return h.state == HypothesisState::accepted && h.decided_by == DecidedBy::operator_;
+  return is_ordered(closer.ledger()[record.entry]);
 }
 
 /// What is open between two islands, as far as the scans have not contradicted it; what an operator accepted in any
@@ -30,7 +29,7 @@ bool is_ordered(const LoopCloser& closer, const SightingRecord& record) {
 std::vector<SightingOption> options_between(const Map& map, const LoopCloser& closer, const SightingLog& log,
                                             IslandId x, IslandId y) {
   std::vector<SightingOption> options;
-  for (std::size_t i = 0; i < log.placed().size(); ++i) {
+  for (const std::size_t i : log.in_question()) {
     const SightingRecord& record = log.placed()[i];
     if (!is_usable(record.sighting)) continue;
     const bool ordered = is_ordered(closer, record);
@@ -110,8 +109,8 @@ bool may_join(const Map& map, const InformationGraph& graph, const LoopCloser& c
 std::vector<std::pair<IslandId, IslandId>> pairs_in_question(const Map& map, const LoopCloser& closer,
                                                              const SightingLog& log) {
   std::vector<std::pair<IslandId, IslandId>> pairs;
-  for (std::size_t i = log.placed().size(); i-- > 0;) {
-    const SightingRecord& record = log.placed()[i];
+  for (std::size_t n = log.in_question().size(); n-- > 0;) {
+    const SightingRecord& record = log.placed()[log.in_question()[n]];
     if (!is_open(closer, record) && !is_ordered(closer, record)) continue;
     for (const SeenCandidate& c : record.candidates) {
       const IslandId x = island_of(map, record.observer_at.pose);

@@ -55,6 +55,14 @@ bool is_silent(const Map& map, const SightingRecord& record) {
   });
 }
 
+/// Islands are never parted again, and what is decided stays so: then nothing is asked of it any more.
+bool is_in_question(const Map& map, const SightingRecord& record, const Hypothesis& entry) {
+  if (!entry.is_undecided() && !is_ordered(entry)) return false;
+  const IslandId here = map.island_of(record.observer_at.pose.patch);
+  return std::any_of(record.candidates.begin(), record.candidates.end(),
+                     [&](const SeenCandidate& c) { return map.island_of(c.at.pose.patch) != here; });
+}
+
 const SeenCandidate& likeliest(const SightingRecord& record) {
   return *std::max_element(
       record.candidates.begin(), record.candidates.end(),
@@ -93,10 +101,11 @@ std::optional<PlacedRobot> place_at(const Map& map, RobotId robot, double stamp,
   const auto& scans = map.robot(robot).trajectory;
   // From the end: stamps may step back, and a sighting is recent.
   for (std::size_t i = scans.size(); i-- > 0;) {
-    const TrackedScan before = scans[i];
-    if (before.stamp > stamp + kSameStamp) continue;
+    const double then = scans.stamp(i);
+    if (then > stamp + kSameStamp) continue;
     const bool newest = i + 1 == scans.size();
-    if (newest && !last && before.stamp < stamp - kSameStamp) return std::nullopt;
+    if (newest && !last && then < stamp - kSameStamp) return std::nullopt;
+    const TrackedScan before = scans[i];
     PlacedRobot placed{before.pose, before.covariance};
     if (i > 0) placed.add_motion(map.project(scans[i - 1].pose).inverse() * map.project(before.pose));
     if (newest) return placed;
@@ -139,6 +148,8 @@ std::optional<SightingRecord> SightingLog::place(const Map& map, const Waiting& 
 
 bool SightingLog::place_waiting(const Map& map, const InformationGraph& graph, LoopCloser& closer,
                                 std::span<const Decision> decisions, bool last) {
+  std::erase_if(in_question_,
+                [&](std::size_t i) { return !is_in_question(map, placed_[i], closer.ledger()[placed_[i].entry]); });
   bool fresh = ask_again(map, graph, closer, last);
   std::erase_if(waiting_, [&](const Waiting& w) {
     std::optional<SightingRecord> record = place(map, w, last);
@@ -146,6 +157,7 @@ bool SightingLog::place_waiting(const Map& map, const InformationGraph& graph, L
     ask_scans(map, graph, *record);
     record->entry = closer.ledger().size();
     closer.record(first_entry(map, *record, decisions));
+    if (is_in_question(map, *record, closer.ledger().back())) in_question_.push_back(placed_.size());
     placed_.push_back(std::move(*record));
     fresh = true;
     return true;
@@ -155,7 +167,8 @@ bool SightingLog::place_waiting(const Map& map, const InformationGraph& graph, L
 
 bool SightingLog::ask_again(const Map& map, const InformationGraph& graph, LoopCloser& closer, bool last) {
   bool fresh = false;
-  for (SightingRecord& record : placed_) {
+  for (const std::size_t i : in_question_) {
+    SightingRecord& record = placed_[i];
     if (map.patch_count() < record.ask_again_at && !last) continue;
     if (!closer.ledger()[record.entry].is_undecided() || !is_silent(map, record)) continue;
     ask_scans(map, graph, record);
@@ -166,6 +179,10 @@ bool SightingLog::ask_again(const Map& map, const InformationGraph& graph, LoopC
     closer.revise(record.entry, std::move(h));
   }
   return fresh;
+}
+
+bool is_ordered(const Hypothesis& entry) {
+  return entry.state == HypothesisState::accepted && entry.decided_by == DecidedBy::operator_;
 }
 
 Hypothesis entry_of(const SightingRecord& record, const SeenCandidate& candidate) {

@@ -51,6 +51,9 @@ class SightingLog {
 
   /// Those that are placed, in the order in which they were.
   [[nodiscard]] std::span<const SightingRecord> placed() const { return placed_; }
+  /// Of those, by their place among them, what may still join islands: the ledger has not decided, or an operator has
+  /// accepted, and a candidate was on another island at the last place_waiting(). Ascending.
+  [[nodiscard]] std::span<const std::size_t> in_question() const { return in_question_; }
   /// True before the first sighting: nothing is to be done.
   [[nodiscard]] bool empty() const { return waiting_.empty() && placed_.empty(); }
   /// Sightings of robots that were not placed yet.
@@ -68,10 +71,14 @@ class SightingLog {
 
   std::vector<Waiting> waiting_;
   std::vector<SightingRecord> placed_;
+  std::vector<std::size_t> in_question_;
 };
 
 /// Where a robot was at a time, between its scans; nothing before its first scan or (unless `last`) after its last.
 [[nodiscard]] std::optional<PlacedRobot> place_at(const Map& map, RobotId robot, double stamp, bool last);
+
+/// An operator has accepted it.
+[[nodiscard]] bool is_ordered(const Hypothesis& entry);
 
 /// The ledger's words for a sighting that may be of this candidate.
 [[nodiscard]] Hypothesis entry_of(const SightingRecord& record, const SeenCandidate& candidate);
