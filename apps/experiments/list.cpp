@@ -3,11 +3,11 @@
 namespace helicoid {
 
 const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> all{
-      buildings_experiment(), calibration_experiment(), crispness_experiment(), fig6_experiment(),
-      laps_experiment(),      lies_experiment(),        mrclam_experiment(),    outliers_experiment(),
-      playback_experiment(),  relations_experiment(),   spiral_experiment(),    teams_experiment(),
-      undo_experiment()};
+  static const std::vector<Experiment> all{buildings_experiment(), calibration_experiment(), crispness_experiment(),
+                                           fig6_experiment(),      laps_experiment(),        lies_experiment(),
+                                           mrclam_experiment(),    outliers_experiment(),    playback_experiment(),
+                                           relations_experiment(), spiral_experiment(),      team_gain_experiment(),
+                                           teams_experiment(),     undo_experiment()};
   return all;
 }
 

@@ -16,6 +16,7 @@ namespace helicoid {
 [[nodiscard]] Experiment playback_experiment();
 [[nodiscard]] Experiment relations_experiment();
 [[nodiscard]] Experiment spiral_experiment();
+[[nodiscard]] Experiment team_gain_experiment();
 [[nodiscard]] Experiment teams_experiment();
 [[nodiscard]] Experiment undo_experiment();
 
