@@ -104,7 +104,7 @@ void TeamPilot::plan(double now, std::span<const Order> orders) {
   std::vector<TeamMember> team;
   {
     const Timed timed(times_.floor_s);
-    neighbours_ = find_neighbours(map());
+    neighbours_ = driven_.add_to(map(), find_neighbours(map()));
     floor_ = NavigableMap(map(), neighbours_, options_.navigation, floor_ ? &*floor_ : nullptr);
     for (const Member& m : members_) fields.push_back(distances_from(*floor_, m.pose));
   }

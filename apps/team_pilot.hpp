@@ -11,6 +11,7 @@
 #include "helicoid/exploration/explorer.hpp"
 #include "helicoid/mapping/mapper.hpp"
 #include "helicoid/navigation/distance_field.hpp"
+#include "helicoid/navigation/driven_neighbours.hpp"
 #include "helicoid/navigation/plan_route.hpp"
 #include "helicoid/navigation/route_follower.hpp"
 #include "helicoid/sensor/drive_command.hpp"
@@ -83,6 +84,7 @@ class TeamPilot {
   Mapper mapper_;
   Explorer explorer_;
   Planner planner_;
+  DrivenNeighbours driven_;
   Neighbours neighbours_;
   std::optional<NavigableMap> floor_;
   std::vector<Member> members_;  ///< those on the map, in the order in which they came

@@ -19,6 +19,7 @@ namespace helicoid {
 [[nodiscard]] Experiment retro_traverse_experiment();
 [[nodiscard]] Experiment spiral_experiment();
 [[nodiscard]] Experiment swarm_experiment();
+[[nodiscard]] Experiment team_gain_experiment();
 [[nodiscard]] Experiment teams_experiment();
 [[nodiscard]] Experiment undo_experiment();
 

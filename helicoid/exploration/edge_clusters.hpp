@@ -25,7 +25,7 @@ struct EdgeCluster {
 
 struct ClusterOptions {
   double link = 0.25;     ///< points nearer than this hang together, metres
-  double shortest = 0.3;  ///< shorter stretches are left out, metres
+  double shortest = 0.2;  ///< shorter stretches are left out, metres
   double longest = 3.0;   ///< longer ones are cut, metres
 };
 [[nodiscard]] std::vector<EdgeCluster> cluster_edges(const Map& map, const OpenEdges& edges,

@@ -163,45 +163,61 @@ void Explorer::keep_meetings(Situation& s, TeamPlan& plan) const {
   }
 }
 
-void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
-  if (!options_.meet) return;
+/// The map itself tells how the two places lie to each other, well enough.
+bool Explorer::is_known(const Map& map, const Doubt& doubt) const {
+  return map.island_of(doubt.a) == map.island_of(doubt.b) && finder_.edges().same_sheet(doubt.a, doubt.b);
+}
+
+/// By expected gain: if the places are one, what lies beyond either of them need not be looked at from the other's
+/// side.
+bool Explorer::is_worth_meeting(const Situation& s, const Doubt& doubt, const Pairing& pair) const {
+  if (s.frontiers.empty()) return true;
+  double saved_m2 = 0;
+  for (const Frontier& frontier : s.frontiers) {
+    for (const PatchId place : {doubt.a, doubt.b}) {
+      const Vector2d apart = project(s.map, frontier.middle) - s.map.T_plane_patch(place).translation();
+      const bool near = s.map.island_of(place) == frontier.island && apart.norm() <= options_.doubt_reach;
+      if (near) saved_m2 += 0.5 * std::min(frontier.gain_m2, options_.assignment.most_gain);
+    }
+  }
   const auto worth_exploring = [&](std::span<const std::uint8_t> is_free) {
     const Eigen::MatrixXd way = ways_of_free(s.way, is_free);
     const Choice nobody(s.members.size());
     const Choice chosen = assign_frontiers(s.frontiers, way, nobody, options_.assignment);
     return team_value(s.frontiers, way, nobody, chosen, options_.assignment);
   };
-  for (const Doubt& doubt : s.doubts) {
-    if (!desk_.is_open(s.now, doubt)) {
-      s.waits = s.waits || !desk_.is_given_up(doubt);
-      continue;
+  std::vector<std::uint8_t> others = s.is_free;
+  others[pair.watcher] = others[pair.shown] = 0;
+  const double gain = options_.assignment.metres_per_m2 * saved_m2 - pair.ways;
+  return worth_exploring(others) + gain >= worth_exploring(s.is_free);
+}
+
+void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
+  if (!options_.meet) return;
+  // Anybody who can reach b's place stands for all: whether there is a place at all.
+  const Travel to_b = [&](const ManifoldPoint& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < s.members.size(); ++i) {
+      if (std::isinf(least) && s.is_free[i] != 0) least = s.travel[i](p);
     }
-    // A robot that can reach b's place stands for all: its way over b's sheet.
-    const Travel to_b = [&](const ManifoldPoint& p) {
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < s.members.size(); ++i) least = std::min(least, s.travel[i](p));
-      return least;
-    };
+    return least;
+  };
+  // While there is other work each plan thinks of a few, in turn.
+  int asked = s.frontiers.empty() ? std::numeric_limits<int>::min() : 0;
+  for (std::size_t k = 0; k < s.doubts.size(); ++k) {
+    const Doubt& doubt = s.doubts[(doubt_turn_ + k) % s.doubts.size()];
+    s.waits = s.waits || desk_.is_resting(s.now, doubt);
+    if (std::count(s.is_free.begin(), s.is_free.end(), 1) < 2 || asked >= options_.doubts_a_plan) continue;
+    if (is_known(s.map, doubt) || !desk_.is_open(s.now, s.map, doubt)) continue;
+    ++asked;
     const std::optional<Posts> posts = find_posts(s.map, doubt, to_b, options_.rendezvous);
-    const std::optional<Pairing> pair = posts ? choose_pair(*posts, doubt, s.travel, s.is_free) : std::nullopt;
-    if (!pair) continue;
-    // If the places are one, what is beyond either of them need not be looked at from the other's side.
-    double saved_m2 = 0;
-    for (const Frontier& frontier : s.frontiers) {
-      for (const PatchId place : {doubt.a, doubt.b}) {
-        const bool near =
-            s.map.island_of(place) == frontier.island &&
-            (project(s.map, frontier.middle) - s.map.T_plane_patch(place).translation()).norm() <= options_.doubt_reach;
-        if (near) saved_m2 += 0.5 * std::min(frontier.gain_m2, options_.assignment.most_gain);
-      }
-    }
-    std::vector<std::uint8_t> others = s.is_free;
-    others[pair->watcher] = others[pair->shown] = 0;
-    const double gain = options_.assignment.metres_per_m2 * saved_m2 - pair->ways;
-    if (!s.frontiers.empty() && worth_exploring(s.is_free) > worth_exploring(others) + gain) continue;
+    if (!posts || posts->chance < options_.rendezvous.sure) continue;
+    const std::optional<Pairing> pair = choose_pair(*posts, doubt, s.travel, s.is_free);
+    if (!pair || !is_worth_meeting(s, doubt, *pair)) continue;
     desk_.begin(s.now, doubt, *posts, *pair, s.members);
     keep_meetings(s, plan);
   }
+  doubt_turn_ += static_cast<std::size_t>(options_.doubts_a_plan);
 }
 
 void Explorer::assign(Situation& s, TeamPlan& plan) {
@@ -217,7 +233,9 @@ void Explorer::assign(Situation& s, TeamPlan& plan) {
       going[r] = f;
     }
   }
-  const Choice chosen = assign_frontiers(s.frontiers, ways_of_free(s.way, s.is_free), going, options_.assignment);
+  const Eigen::MatrixXd way_of_free = ways_of_free(s.way, s.is_free);
+  const Choice chosen = options_.coordinated ? assign_frontiers(s.frontiers, way_of_free, going, options_.assignment)
+                                             : nearest_frontiers(way_of_free);
   for (std::size_t r = 0; r < chosen.size(); ++r) {
     if (!chosen[r]) {
       looks_.note_not_going(s.members[r].robot);

@@ -19,8 +19,10 @@ struct ExplorerOptions {
   AssignmentOptions assignment;
   LookMemoryOptions looks;
   RendezvousOptions rendezvous;
+  bool coordinated = true;          ///< false: each robot goes to its nearest frontier, whatever the others do
   bool meet = true;                 ///< doubts are settled by rendezvous
   double doubt_reach = 10;          ///< frontiers so near to a doubt's places may show what is known already, metres
+  int doubts_a_plan = 4;            ///< that a meeting is thought of for
   double metres_per_charge = 2000;  ///< a full battery drives so far
   double battery_reserve = 0.10;    ///< of a charge, left when a robot is home
   double at_home = 0.5;             ///< a robot this near to its home is there, metres
@@ -72,6 +74,8 @@ class Explorer {
   void spare_batteries(Situation& s, TeamPlan& plan);
   void keep_meetings(Situation& s, TeamPlan& plan) const;
   void arrange_meetings(Situation& s, TeamPlan& plan);
+  bool is_worth_meeting(const Situation& s, const Doubt& doubt, const Pairing& pair) const;
+  [[nodiscard]] bool is_known(const Map& map, const Doubt& doubt) const;
   void assign(Situation& s, TeamPlan& plan);
   void go_home(Situation& s, TeamPlan& plan);
   void conclude(Situation& s, TeamPlan& plan);
@@ -81,6 +85,7 @@ class Explorer {
   OrderBook orders_;
   LookMemory looks_;
   RendezvousDesk desk_;
+  std::size_t doubt_turn_ = 0;     ///< where the next plan begins to think of doubts
   std::vector<RobotId> recalled_;  ///< their batteries were low
   double nearest_home_ = 0;        ///< the sum of the ways home, at its least since returning
   double nearest_home_at_ = -1;    ///< when; below 0: not returning

@@ -51,7 +51,7 @@ struct FrontierOptions {
   double goal_reach = 4.0;                  ///< a goal lies within this way of the edge
   /// New patches about an edge that they do not touch are taken into account after so many calls.
   int renewal = 4;
-  double least_gain = 0.1;  ///< less than this is not worth a look, m2
+  double least_gain = 0.06;  ///< less than this is not worth a look, m2
 };
 
 class FrontierFinder {

@@ -18,7 +18,7 @@ struct OpenPoint {
 
 /// Distances in metres.
 struct PatchViewOptions {
-  double obstacle_reach = 0.15;  ///< what lies this near to an obstacle is not open: walls are seen with noise
+  double obstacle_reach = 0.12;  ///< what lies this near to an obstacle is not open: walls are seen with noise
   double body = 0.25;            ///< about the robot's origin the floor is free: the robot stood there
   double spacing = 0.10;         ///< of the points on an open edge
 };

@@ -86,25 +86,33 @@ const Meeting* RendezvousDesk::meeting_of(RobotId robot) const {
   return found != meetings_.end() ? &*found : nullptr;
 }
 
-RendezvousDesk::Past& RendezvousDesk::past_of(std::size_t doubt) {
+RendezvousDesk::Past& RendezvousDesk::past_of(const Doubt& doubt) {
   for (Past& past : past_) {
-    if (past.doubt == doubt) return past;
+    if (past.doubt.id == doubt.id) return past;
   }
   return past_.emplace_back(Past{doubt, false, 0, 0});
 }
 
-bool RendezvousDesk::is_open(double now, const Doubt& doubt) const {
-  const auto about = [&](const auto& entry) { return entry.doubt == doubt.id; };
-  const auto past = std::find_if(past_.begin(), past_.end(), about);
-  if (past != past_.end() && (past->settled || past->failures >= options_.most_tries || now < past->rests_until)) {
-    return false;
-  }
-  return std::none_of(meetings_.begin(), meetings_.end(), [&](const Meeting& m) { return m.doubt.id == doubt.id; });
+bool RendezvousDesk::asks_the_same(const Map& map, const Doubt& a, const Doubt& b) const {
+  const auto near = [&](PatchId p, PatchId q) {
+    return map.island_of(p) == map.island_of(q) &&
+           (map.T_plane_patch(p).translation() - map.T_plane_patch(q).translation()).norm() <= options_.alike;
+  };
+  return a.id == b.id || (near(a.a, b.a) && near(a.b, b.b)) || (near(a.a, b.b) && near(a.b, b.a));
 }
 
-bool RendezvousDesk::is_given_up(const Doubt& doubt) const {
+bool RendezvousDesk::is_open(double now, const Map& map, const Doubt& doubt) const {
+  const bool answered = std::any_of(past_.begin(), past_.end(), [&](const Past& past) {
+    const bool closed = past.settled || past.failures >= options_.most_tries || now < past.rests_until;
+    return closed && asks_the_same(map, past.doubt, doubt);
+  });
+  return !answered && std::none_of(meetings_.begin(), meetings_.end(),
+                                   [&](const Meeting& m) { return asks_the_same(map, m.doubt, doubt); });
+}
+
+bool RendezvousDesk::is_resting(double now, const Doubt& doubt) const {
   return std::any_of(past_.begin(), past_.end(), [&](const Past& past) {
-    return past.doubt == doubt.id && !past.settled && past.failures >= options_.most_tries;
+    return past.doubt.id == doubt.id && !past.settled && past.failures < options_.most_tries && now < past.rests_until;
   });
 }
 
@@ -173,7 +181,7 @@ std::vector<Settled> RendezvousDesk::step(double now, const Map& map, std::span<
     meeting.shown = member_of(meeting.shown_robot);
     if (doubt == doubts.end()) return true;
     if (meeting.watcher == members.size() || meeting.shown == members.size() || now > meeting.deadline) {
-      Past& past = past_of(meeting.doubt.id);
+      Past& past = past_of(meeting.doubt);
       ++past.failures;
       past.rests_until = now + options_.rest;
       return true;
@@ -186,7 +194,7 @@ std::vector<Settled> RendezvousDesk::step(double now, const Map& map, std::span<
     if (meeting.there_since < 0) meeting.there_since = now;
     const std::optional<Settled> outcome = judge(now, map, meeting, members);
     if (!outcome) return false;
-    past_of(meeting.doubt.id).settled = true;
+    past_of(meeting.doubt).settled = true;
     settled.push_back(*outcome);
     return true;
   });

@@ -16,14 +16,15 @@ struct RendezvousOptions {
   SightingModel sighting;
   StandingNoise standing;
   double sure = 0.95;        ///< absence counts when a sighting was at least as likely as this
-  double at_post = 0.35;     ///< a robot this near to its post stands there, metres
+  double at_post = 0.50;     ///< a robot this near to its post stands there, metres
   double facing = 0.5;       ///< and looks where it should, to this, radians
   int least_looks = 4;       ///< that are waited for
   double range_error = 0.6;  ///< a sighting that is farther off what the doubt predicts is of another place, metres
-  double patience = 40;      ///< beside the time for the way, before a meeting is given up, seconds
-  double slowest = 0.15;     ///< metres a second
+  double patience = 20;      ///< beside the time for the way, before a meeting is given up, seconds
+  double slowest = 0.20;     ///< metres a second
+  double alike = 3.0;        ///< doubts both of whose places are this near to another's ask the same, metres
   double rest = 60;          ///< before it is tried again, seconds
-  int most_tries = 3;
+  int most_tries = 2;
 };
 
 /// Where the two stand, on a patch each.
@@ -93,13 +94,15 @@ class RendezvousDesk {
 
   [[nodiscard]] const std::vector<Meeting>& meetings() const { return meetings_; }
   [[nodiscard]] const Meeting* meeting_of(RobotId robot) const;
-  /// True if a doubt may be asked about: it has not been settled, nor given up, and nobody is on the way to it.
-  [[nodiscard]] bool is_open(double now, const Doubt& doubt) const;
-  [[nodiscard]] bool is_given_up(const Doubt& doubt) const;
+  /// True if a doubt may be asked about: neither it nor one that asks the same has been settled, nor given up, and
+  /// nobody is on the way to it.
+  [[nodiscard]] bool is_open(double now, const Map& map, const Doubt& doubt) const;
+  /// True if it will be tried again.
+  [[nodiscard]] bool is_resting(double now, const Doubt& doubt) const;
 
  private:
   struct Past {
-    std::size_t doubt = 0;
+    Doubt doubt;
     bool settled = false;
     int failures = 0;
     double rests_until = 0;
@@ -108,7 +111,8 @@ class RendezvousDesk {
                                  std::span<const Travel> travel) const;
   [[nodiscard]] std::optional<Settled> judge(double now, const Map& map, Meeting& meeting,
                                              std::span<const TeamMember> members) const;
-  Past& past_of(std::size_t doubt);
+  Past& past_of(const Doubt& doubt);
+  [[nodiscard]] bool asks_the_same(const Map& map, const Doubt& a, const Doubt& b) const;
 
   RendezvousOptions options_;
   std::vector<Meeting> meetings_;

@@ -98,6 +98,15 @@ std::vector<std::optional<std::size_t>> assign_frontiers(std::span<const Frontie
   return chosen;
 }
 
+std::vector<std::optional<std::size_t>> nearest_frontiers(const Eigen::MatrixXd& way) {
+  Choice chosen(static_cast<std::size_t>(way.rows()));
+  for (Eigen::Index r = 0; r < way.rows() && way.cols() > 0; ++r) {
+    Eigen::Index nearest = 0;
+    if (std::isfinite(way.row(r).minCoeff(&nearest))) chosen[static_cast<std::size_t>(r)] = nearest;
+  }
+  return chosen;
+}
+
 double team_value(std::span<const Frontier> frontiers, const Eigen::MatrixXd& way,
                   std::span<const std::optional<std::size_t>> going_to,
                   std::span<const std::optional<std::size_t>> chosen, const AssignmentOptions& options) {

@@ -22,6 +22,9 @@ struct AssignmentOptions {
     std::span<const Frontier> frontiers, const Eigen::MatrixXd& way,
     std::span<const std::optional<std::size_t>> going_to, const AssignmentOptions& options = {});
 
+/// Each robot's nearest frontier, whoever else goes there: what a team does without coordination (Yamauchi 1998).
+[[nodiscard]] std::vector<std::optional<std::size_t>> nearest_frontiers(const Eigen::MatrixXd& way);
+
 /// What an assignment is worth, metres: the floor that will be seen, less the ways.
 [[nodiscard]] double team_value(std::span<const Frontier> frontiers, const Eigen::MatrixXd& way,
                                 std::span<const std::optional<std::size_t>> going_to,
