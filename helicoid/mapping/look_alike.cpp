@@ -4,19 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "helicoid/align/align_scan.hpp"
 #include "helicoid/align/place_search.hpp"
 #include "helicoid/manifold/confidence.hpp"
-#include "helicoid/manifold/seen_free.hpp"
+#include "helicoid/mapping/two_places.hpp"
 
 namespace helicoid {
 
 namespace {
-
-/// Points of a place at most; more make it slower, not surer.
-constexpr std::size_t kPlacePoints = 700;
-/// A point this far within free space contradicts it, metres.
-constexpr float kDeep = 0.35F;
 
 /// b and the patches that its robot kept on the last few metres before it.
 std::vector<PatchId> patches_before(const Map& map, PatchId b, const LookAlikeOptions& options) {
@@ -30,93 +24,6 @@ std::vector<PatchId> patches_before(const Map& map, PatchId b, const LookAlikeOp
     patches.push_back(id);
   }
   return patches;
-}
-
-/// Patches as seen from b.
-std::vector<LocalPatch> views_of_place(const Map& map, PatchId b, std::span<const PatchId> place) {
-  std::vector<LocalPatch> views;
-  for (const PatchId id : place) views.push_back({id, map.T_plane_patch(b).inverse() * map.T_plane_patch(id)});
-  return views;
-}
-
-/// The points of views in the frame that these are given in.
-ScanPoints points_of(const Map& map, std::span<const LocalPatch> views) {
-  std::size_t all = 0;
-  for (const LocalPatch& view : views) all += map.patch(view.patch).points.size();
-  const std::size_t stride = std::max<std::size_t>(1, all / kPlacePoints);
-  ScanPoints place;
-  for (const LocalPatch& view : views) {
-    const Eigen::Matrix2f rotation = view.T_anchor_patch.rotation().cast<float>();
-    const Eigen::Vector2f offset = view.T_anchor_patch.translation().cast<float>();
-    const ScanPoints& points = map.patch(view.patch).points;
-    for (std::size_t i = 0; i < points.size(); i += stride) {
-      if (points.weight[i] <= 0) continue;
-      const Eigen::Vector2f p = rotation * Eigen::Vector2f(points.x[i], points.y[i]) + offset;
-      const Eigen::Vector2f n = rotation * Eigen::Vector2f(points.nx[i], points.ny[i]);
-      place.x.push_back(p.x());
-      place.y.push_back(p.y());
-      place.nx.push_back(n.x());
-      place.ny.push_back(n.y());
-      place.weight.push_back(points.weight[i]);
-      place.facing.push_back(points.facing[i]);
-      place.beam.push_back(points.beam[i]);
-    }
-  }
-  return place;
-}
-
-/// Which points (in b's frame) lie deep in free space of one of the views.
-std::vector<bool> seen_through(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
-                               const Pose2& T_a_b) {
-  std::vector<SeenFree> seen_free;
-  std::vector<Pose2> T_view_b;
-  seen_free.reserve(views.size());
-  T_view_b.reserve(views.size());
-  for (const LocalPatch& view : views) {
-    seen_free.emplace_back(map.patch(view.patch));
-    T_view_b.push_back(view.T_anchor_patch.inverse() * T_a_b);
-  }
-  std::vector<bool> inside(points.size(), false);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector2d p_b(points.x[i], points.y[i]);
-    for (std::size_t k = 0; k < seen_free.size() && !inside[i]; ++k) {
-      inside[i] = seen_free[k].is_deep((T_view_b[k] * p_b).cast<float>(), kDeep);
-    }
-  }
-  return inside;
-}
-
-/// What stood still while the views were taken: what none of them saw through.
-ScanPoints standing_points(const Map& map, std::span<const LocalPatch> views) {
-  ScanPoints points = points_of(map, views);
-  const std::vector<bool> moved = seen_through(map, views, points, Pose2{});
-  for (std::size_t i = 0; i < points.size(); ++i) points.weight[i] = moved[i] ? 0 : points.weight[i];
-  return points;
-}
-
-/// What is compared: what was seen about b, and what was seen about a.
-struct TwoPlaces {
-  std::vector<LocalPatch> views_a, views_b;  ///< in a's and in b's frame
-  ScanPoints points_a, points_b;             ///< the same
-  Reference reference;                       ///< of a's surfaces
-  AlignOptions align;
-};
-
-/// The share of the points of either that lie deep in what was seen as free about the other, of that which has more:
-/// what stood there only then, and what stands there only now. What does not stand still tells nothing.
-double contradicted_share(const Map& map, const TwoPlaces& places, const Pose2& T_a_b) {
-  const auto share = [&](const std::vector<LocalPatch>& views, const ScanPoints& points, const Pose2& T) {
-    const std::vector<bool> inside = seen_through(map, views, points, T);
-    std::size_t standing = 0, against = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points.weight[i] <= 0) continue;
-      ++standing;
-      against += inside[i] ? 1 : 0;
-    }
-    return standing > 0 ? static_cast<double>(against) / static_cast<double>(standing) : 0.0;
-  };
-  return std::max(share(places.views_a, places.points_b, T_a_b),
-                  share(places.views_b, places.points_a, T_a_b.inverse()));
 }
 
 double window_of(const UncertainPose2& T, const LookAlikeOptions& options) {
@@ -269,10 +176,6 @@ Fits search_from_middle(const Map& map, const TwoPlaces& places, const Candidate
   if (fits.second.merit(options) > options.far_more * fits.best.merit(options)) std::swap(fits.best, fits.second);
   return fits;
 }
-
-}  // namespace
-
-namespace {
 
 /// True if the two lie as the map had it (chi^2), all three degrees of freedom were matched and next to nothing speaks
 /// against it: in a window so small there is no other place to be taken for this one.
