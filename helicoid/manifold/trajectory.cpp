@@ -161,6 +161,18 @@ double Trajectory::stamp(std::size_t i) const {
   return last_before(clocks_, i)->stamp + 1e-6 * whole(blocks_[i / kBlock][i % kBlock].microseconds);
 }
 
+std::size_t Trajectory::last_not_after(double stamp) const {
+  std::size_t end = size_;
+  for (auto clock = clocks_.rbegin(); clock != clocks_.rend(); ++clock) {
+    // No scan of a clock is before it: all of one that began later are passed over at once.
+    for (std::size_t i = end; clock->stamp <= stamp && i-- > clock->first;) {
+      if (clock->stamp + 1e-6 * whole(blocks_[i / kBlock][i % kBlock].microseconds) <= stamp) return i;
+    }
+    end = clock->first;
+  }
+  return size_;
+}
+
 TrackedScan Trajectory::operator[](std::size_t i) const {
   return read(static_cast<std::size_t>(last_before(stretches_, i) - stretches_.begin()), i);
 }

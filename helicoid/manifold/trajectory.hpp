@@ -62,6 +62,8 @@ class Trajectory {
   [[nodiscard]] TrackedScan operator[](std::size_t i) const;
   /// The scan's stamp alone.
   [[nodiscard]] double stamp(std::size_t i) const;
+  /// The last scan, in the log's order, whose stamp is not after this one; size() if there is none.
+  [[nodiscard]] std::size_t last_not_after(double stamp) const;
   [[nodiscard]] TrackedScan front() const { return (*this)[0]; }
   [[nodiscard]] TrackedScan back() const { return (*this)[size() - 1]; }
   [[nodiscard]] Iterator begin() const { return {*this, 0}; }

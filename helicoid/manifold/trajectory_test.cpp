@@ -76,6 +76,19 @@ TEST(Trajectory, AnEntryIsTheSameByItsPlaceAndInARow) {
   }
 }
 
+TEST(Trajectory, TheLastScanNotAfterAStampIsFoundThoughStampsStepBack) {
+  std::vector<TrackedScan> scans = random_scans(3, 400);
+  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].stamp = 100 + 0.5 * static_cast<double>((7 * i) % 90 + i / 4);
+  const Trajectory trajectory = trajectory_of(scans);
+  for (double stamp = 90; stamp < 210; stamp += 0.3) {
+    std::size_t last = scans.size();
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (trajectory.stamp(i) <= stamp) last = i;
+    }
+    EXPECT_EQ(trajectory.last_not_after(stamp), last);
+  }
+}
+
 TEST(Trajectory, NeverStatesASmallerDeviationThanItWasGivenNorAnImpossibleCovariance) {
   const std::vector<TrackedScan> scans = random_scans(3, 1000);
   const Trajectory trajectory = trajectory_of(scans);

@@ -99,25 +99,21 @@ Hypothesis first_entry(const Map& map, const SightingRecord& record, std::span<c
 
 std::optional<PlacedRobot> place_at(const Map& map, RobotId robot, double stamp, bool last) {
   const auto& scans = map.robot(robot).trajectory;
-  // From the end: stamps may step back, and a sighting is recent.
-  for (std::size_t i = scans.size(); i-- > 0;) {
-    const double then = scans.stamp(i);
-    if (then > stamp + kSameStamp) continue;
-    const bool newest = i + 1 == scans.size();
-    if (newest && !last && then < stamp - kSameStamp) return std::nullopt;
-    const TrackedScan before = scans[i];
-    PlacedRobot placed{before.pose, before.covariance};
-    if (i > 0) placed.add_motion(map.project(scans[i - 1].pose).inverse() * map.project(before.pose));
-    if (newest) return placed;
-    const TrackedScan after = scans[i + 1];
-    const double share = std::max(0.0, stamp - before.stamp) / std::max(after.stamp - before.stamp, 1e-9);
-    const Pose2 T_before_after = map.project(before.pose).inverse() * map.project(after.pose);
-    placed.add_motion(T_before_after);
-    placed.pose.T_patch_robot =
-        before.pose.T_patch_robot * exponential(std::min(share, 1.0) * logarithm(T_before_after));
-    return placed;
-  }
-  return std::nullopt;
+  // The last in order: stamps may step back, and a sighting is recent.
+  const std::size_t i = scans.last_not_after(stamp + kSameStamp);
+  if (i == scans.size()) return std::nullopt;
+  const bool newest = i + 1 == scans.size();
+  if (newest && !last && scans.stamp(i) < stamp - kSameStamp) return std::nullopt;
+  const TrackedScan before = scans[i];
+  PlacedRobot placed{before.pose, before.covariance};
+  if (i > 0) placed.add_motion(map.project(scans[i - 1].pose).inverse() * map.project(before.pose));
+  if (newest) return placed;
+  const TrackedScan after = scans[i + 1];
+  const double share = std::max(0.0, stamp - before.stamp) / std::max(after.stamp - before.stamp, 1e-9);
+  const Pose2 T_before_after = map.project(before.pose).inverse() * map.project(after.pose);
+  placed.add_motion(T_before_after);
+  placed.pose.T_patch_robot = before.pose.T_patch_robot * exponential(std::min(share, 1.0) * logarithm(T_before_after));
+  return placed;
 }
 
 void PlacedRobot::add_motion(const Pose2& T_before_after) {
