@@ -32,8 +32,8 @@ ExploreJob disturbed(ExploreJob job, double undisturbed_s) {
   return job;
 }
 
-Result<Outcome> cut_off(std::uint64_t seed) {
-  const Result<World> world = load_world("office");
+Result<Outcome> cut_off(const std::string& name, std::uint64_t seed) {
+  const Result<World> world = load_world(name);
   if (!world) return tl::unexpected(world.error());
   const ExploreJob job = job_of(*world, seed);
   const Result<ExploreRun> plain = run_exploration(job);
@@ -89,8 +89,9 @@ Experiment radio_experiment() {
             {"order_mean_deg", std::nullopt, 0.2, false}};
   e.seeds = 10;
   e.quick_seeds = 1;
-  e.cases = [](const ExperimentOptions&) {
-    return std::vector<ExperimentCase>{{"office", true, "", [](std::uint64_t seed) { return cut_off(seed); }}};
+  e.cases = [](const ExperimentOptions& options) {
+    const std::string world = options.quick ? "flat" : "office";
+    return std::vector<ExperimentCase>{{world, true, "", [world](std::uint64_t seed) { return cut_off(world, seed); }}};
   };
   return e;
 }

@@ -8,9 +8,8 @@ namespace helicoid {
 struct LoopCloserOptions {
   LookAlikeOptions look_alike;
   double search_spacing = 2;         ///< a robot looks for look-alikes this often along its way, metres
-  double spacing_again = 2;          ///< the same when all of its way is looked at once more
-  std::size_t candidates_again = 3;  ///< places that a patch is then compared with
-  double reach_again = 8;            ///< and how far off they may lie where the map knows them well, metres
+  double spacing_again = 8;          ///< the same when all of its way is looked at once more
+  std::size_t candidates_again = 1;  ///< places that a patch is then compared with
   double consistent = 11.345;        ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
   std::size_t memory = 60;           ///< entries back that may support a new one
   std::size_t least_agreeing = 3;    ///< hypotheses of different patches that must agree
