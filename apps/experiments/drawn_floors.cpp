@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace helicoid {
 
 namespace {
@@ -28,11 +30,11 @@ class FloorImage {
   }
 
  private:
-  static int pixel(double metres) { return static_cast<int>(metres / kPixel + 0.5); }
+  static int pixel(double metres) { return static_cast<int>(std::lround(metres / kPixel)); }
   void paint(double x0, double y0, double x1, double y1, char grey) {
     for (int y = pixel(y0); y < pixel(y1); ++y) {
-      const int row = rows_ - 1 - y;  // images begin at the top
-      for (int x = pixel(x0); x < pixel(x1); ++x) grey_[static_cast<std::size_t>(row * columns_ + x)] = grey;
+      const auto row = static_cast<std::size_t>(rows_ - 1 - y) * static_cast<std::size_t>(columns_);  // from the top
+      for (int x = pixel(x0); x < pixel(x1); ++x) grey_[row + static_cast<std::size_t>(x)] = grey;
     }
   }
 
