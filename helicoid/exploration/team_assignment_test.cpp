@@ -52,9 +52,10 @@ TEST(TeamAssignment, WhatATeammateWillSeeCountsOnce) {
 TEST(TeamAssignment, IsNeverWorseThanTheBestIgnoringWhatIsShared) {
   Random random(3);
   for (int round = 0; round < 200; ++round) {
-    std::vector<Frontier> frontiers;
-    for (int f = 0; f < 6; ++f) {
-      frontiers.push_back(frontier(random.uniform(0.5, 15), static_cast<std::int32_t>(random.below(4))));
+    std::vector<Frontier> frontiers(6);
+    for (Frontier& f : frontiers) {
+      const double gain = random.uniform(0.5, 15);
+      f = frontier(gain, static_cast<std::int32_t>(random.below(4)));
     }
     Eigen::MatrixXd way(3, 6);
     for (double& w : way.reshaped()) w = random.uniform(0, 30);

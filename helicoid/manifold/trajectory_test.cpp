@@ -78,7 +78,10 @@ TEST(Trajectory, AnEntryIsTheSameByItsPlaceAndInARow) {
 
 TEST(Trajectory, TheLastScanNotAfterAStampIsFoundThoughStampsStepBack) {
   std::vector<TrackedScan> scans = random_scans(3, 400);
-  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].stamp = 100 + 0.5 * static_cast<double>((7 * i) % 90 + i / 4);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::size_t half_seconds = (7 * i) % 90 + i / 4;
+    scans[i].stamp = 100 + 0.5 * static_cast<double>(half_seconds);
+  }
   const Trajectory trajectory = trajectory_of(scans);
   for (double stamp = 90; stamp < 210; stamp += 0.3) {
     std::size_t last = scans.size();

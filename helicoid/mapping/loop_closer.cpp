@@ -88,9 +88,8 @@ std::vector<std::size_t> LoopCloser::look_about(const Map& map, const Informatio
   compare_with_one_another(map, graph, found);
   std::vector<std::size_t> accepted;
   for (Hypothesis& h : found) {
-    const std::vector<std::size_t> now =
-        enter(map, graph, about_b, std::move(h),
-              h.foretold ? kForetold : Quorum{options_.least_agreeing, options_.least_way});
+    const Quorum quorum = h.foretold ? kForetold : Quorum{options_.least_agreeing, options_.least_way};
+    const std::vector<std::size_t> now = enter(map, graph, about_b, std::move(h), quorum);
     accepted.insert(accepted.end(), now.begin(), now.end());
   }
   return accepted;
