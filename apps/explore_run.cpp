@@ -218,6 +218,14 @@ ExploreRun Exploration::finish(const LaserModel& laser) {
 
 }  // namespace
 
+ExploreJob explore_from_starts(const World& world, std::size_t robots, std::uint64_t seed) {
+  ExploreJob job;
+  job.world = world;
+  job.simulation.seed = seed;
+  for (std::size_t i = 0; i < robots; ++i) job.robots.push_back({world.starts[i]});
+  return job;
+}
+
 Result<ExploreRun> run_exploration(const ExploreJob& job) {
   const InterruptGuard guard;
   const double began = thread_cpu_seconds();

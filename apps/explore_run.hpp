@@ -52,6 +52,9 @@ struct ExploreRun {
   [[nodiscard]] double realtime_factor() const { return sim_s / (cpu_s + sim_cpu_s); }
 };
 
+/// Robots at the first of a world's own starts, of which there are enough.
+[[nodiscard]] ExploreJob explore_from_starts(const World& world, std::size_t robots, std::uint64_t seed);
+
 /// Explores until the team has come to an end, then fits the map once more. The same job, the same run, to the bit.
 /// Errors: a robot that cannot start where it should.
 [[nodiscard]] Result<ExploreRun> run_exploration(const ExploreJob& job);

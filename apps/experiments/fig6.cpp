@@ -12,14 +12,6 @@ namespace {
 
 constexpr std::size_t kRobots = 4;
 
-ExploreJob job_of(const World& world, std::uint64_t seed) {
-  ExploreJob job;
-  job.world = world;
-  job.simulation.seed = seed;
-  for (std::size_t i = 0; i < kRobots; ++i) job.robots.push_back({world.starts[i]});
-  return job;
-}
-
 /// Fig. 6 (c) and (d): the sketch of each island with its topological map.
 void draw(const Map& map, const std::string& name, std::vector<ExperimentPicture>& pictures) {
   const MapReport report = report_on(map, true);
@@ -33,7 +25,7 @@ void draw(const Map& map, const std::string& name, std::vector<ExperimentPicture
 /// The same run once more, up to the last moment of two islands.
 Result<std::vector<ExperimentPicture>> draw_before(const World& world, std::uint64_t seed, double merged_at) {
   std::vector<ExperimentPicture> pictures;
-  ExploreJob job = job_of(world, seed);
+  ExploreJob job = explore_from_starts(world, kRobots, seed);
   job.observer = [&](double now, const LiveSimulation&, const TeamPilot& pilot) {
     if (now + 1.5 * job.plan_period < merged_at) return true;
     draw(pilot.map(), "before", pictures);
@@ -55,7 +47,7 @@ Result<Entered> enter(const World& world, std::uint64_t seed) {
   constexpr double kAtDoor = 30;  // seconds
   std::size_t most_islands = 0;
   double merged_at = 0;
-  ExploreJob job = job_of(world, seed);
+  ExploreJob job = explore_from_starts(world, kRobots, seed);
   job.observer = [&](double now, const LiveSimulation&, const TeamPilot& pilot) {
     const std::size_t islands = pilot.map().islands().size();
     if (now > kAtDoor) most_islands = std::max(most_islands, islands);

@@ -13,14 +13,6 @@ constexpr std::size_t kRobots = 4;
 constexpr std::size_t kDying = 1;
 constexpr std::size_t kLate = 3;
 
-ExploreJob job_of(const World& world, std::uint64_t seed) {
-  ExploreJob job;
-  job.world = world;
-  job.simulation.seed = seed;
-  for (std::size_t i = 0; i < kRobots; ++i) job.robots.push_back({world.starts[i]});
-  return job;
-}
-
 /// The same team when a third of the time that it needs undisturbed is without radio.
 ExploreJob disturbed(ExploreJob job, double undisturbed_s) {
   job.robots[kDying].dies_at = undisturbed_s / 2;
@@ -35,7 +27,7 @@ ExploreJob disturbed(ExploreJob job, double undisturbed_s) {
 Result<Outcome> cut_off(const std::string& name, std::uint64_t seed) {
   const Result<World> world = load_world(name);
   if (!world) return tl::unexpected(world.error());
-  const ExploreJob job = job_of(*world, seed);
+  const ExploreJob job = explore_from_starts(*world, kRobots, seed);
   const Result<ExploreRun> plain = run_exploration(job);
   if (!plain) return tl::unexpected(plain.error());
   const ExploreJob job_cut = disturbed(job, plain->sim_s);
