@@ -18,7 +18,7 @@ void draw(const Map& map, const std::string& name, std::vector<ExperimentPicture
   for (std::size_t i = 0; i < report.islands.size(); ++i) {
     SketchDrawing drawing = draw_sketch(map, report, report.islands[i], 1);
     drawing.title = fmt::format("{}", fmt::join(report.islands[i].robots, ", "));
-    pictures.push_back({fmt::format("fig6-{}-{}", name, i + 1), to_svg(drawing)});
+    pictures.push_back({fmt::format("{}-{}", name, i + 1), to_svg(drawing)});
   }
 }
 

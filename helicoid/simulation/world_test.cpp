@@ -97,7 +97,10 @@ class ImageWorld : public testing::Test {
  protected:
   /// A room of 4 x 3 cells of half a metre; `inside` is its grey value.
   std::string write(const std::string& keys, char inside) {
-    const std::filesystem::path folder = testing::TempDir();
+    // Tests run side by side: each has files of its own.
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder);
     std::ofstream pgm(folder / "room.pgm", std::ios::binary);
     pgm << "P5\n# a comment\n6 5\n255\n";
     for (int row = 0; row < 5; ++row) {
