@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -52,6 +53,27 @@ TEST(HouseRules, AFileHasAtMost300Lines) {
 
 /// By the layout that clang-format gives: a function begins at the margin and ends with a brace that stands there
 /// alone.
+// All rooms share one namespace: two types of one name would be one to the linker.
+TEST(HouseRules, ATypeOfAHeaderHasANameOfItsOwn) {
+  const std::regex type("^(?:struct|class) ([A-Za-z0-9]+)(?: final)?(?: :[^:].*)? \\{");
+  std::map<std::string, std::vector<std::string>> places;
+  for (const char* folder : {"helicoid", "apps"}) {
+    for (const std::string& path : files_below(folder, {".hpp"})) {
+      std::istringstream lines(code_only(text_of(path)));
+      for (std::string line; std::getline(lines, line);) {
+        std::smatch found;
+        if (std::regex_search(line, found, type)) places[found[1]].push_back(path);
+      }
+    }
+  }
+  ASSERT_GT(places.size(), 100U);
+  std::vector<std::string> wrong;
+  for (const auto& [name, files] : places) {
+    if (files.size() > 1) wrong.push_back(fmt::format("{}: {}", name, fmt::join(files, ", ")));
+  }
+  EXPECT_THAT(wrong, IsEmpty());
+}
+
 TEST(HouseRules, AFunctionHasAtMost40Lines) {
   const std::regex other("^(namespace|class|struct|enum|union|extern)\\b");
   std::vector<std::string> wrong;

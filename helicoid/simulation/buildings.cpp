@@ -13,18 +13,18 @@ void visit(Route& route, const Room& room) {
 }
 
 /// A block of the building that no robot enters, its walls with niches.
-void add_block(FloorPlan& plan, const Vector2d& low, const Vector2d& high, Random& random) {
+void add_block(BuildingPlan& plan, const Vector2d& low, const Vector2d& high, Random& random) {
   const Vector2d corners[] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
   for (std::size_t i = 0; i < 4; ++i) plan.wall_with_niches(corners[i], corners[(i + 1) % 4], random);
 }
 
 /// The same from inside.
-void add_hull(FloorPlan& plan, const Vector2d& low, const Vector2d& high, Random& random) {
+void add_hull(BuildingPlan& plan, const Vector2d& low, const Vector2d& high, Random& random) {
   const Vector2d corners[] = {low, {low.x(), high.y()}, high, {high.x(), low.y()}};
   for (std::size_t i = 0; i < 4; ++i) plan.wall_with_niches(corners[i], corners[(i + 1) % 4], random);
 }
 
-World finished(FloorPlan plan, Route route, const char* name) {
+World finished(BuildingPlan plan, Route route, const char* name) {
   World world;
   world.name = name;
   world.walls = std::move(plan.walls);
@@ -40,7 +40,7 @@ void visit_some(Route& route, std::span<const Room> rooms, std::size_t first) {
 }
 
 /// One rack: pallets side by side on posts, some places empty.
-void add_rack(FloorPlan& plan, const Vector2d& corner, int pallets, Random& random) {
+void add_rack(BuildingPlan& plan, const Vector2d& corner, int pallets, Random& random) {
   constexpr double kPitch = 1.35;
   for (int i = 0; i <= pallets; ++i) {
     for (const double y : {0.0, 1.2}) plan.box({corner.x() + i * kPitch, corner.y() + y, 0}, 0.1, 0.1);
@@ -56,7 +56,7 @@ Vector2d on_circle(double radius, double angle) {
 }
 
 /// An arc with niches that are `deeper` metres farther out (or in, below 0).
-void add_arc(FloorPlan& plan, double radius, double from, double to, double deeper, Random& random) {
+void add_arc(BuildingPlan& plan, double radius, double from, double to, double deeper, Random& random) {
   double niche = from + random.uniform(0.15, 0.4);
   Vector2d last = on_circle(radius, from);
   for (double angle = from; angle < to;) {
@@ -80,7 +80,7 @@ World make_hospital(std::uint64_t seed, std::size_t moved) {
   constexpr double kLength = 60;
   constexpr double kHeight = 15;
   constexpr double kHalf = 1.2;  // of the corridor's width
-  FloorPlan plan;
+  BuildingPlan plan;
   std::vector<Room> south = add_rooms(plan, {{kLength + kHalf, -kHalf}, {-kHalf, -kHalf}});
   std::reverse(south.begin(), south.end());  // from west to east, as the robot comes by
   std::vector<Room> north = add_rooms(plan, {{-kHalf, kHeight + kHalf}, {kLength + kHalf, kHeight + kHalf}});
@@ -112,7 +112,7 @@ World make_terminal(std::uint64_t seed) {
   constexpr double kCross = 100;
   constexpr double kHalf = 1.5;
   Random random(seed);
-  FloorPlan plan;
+  BuildingPlan plan;
   add_hull(plan, {-kHalf, -kHalf}, {kLength + kHalf, kHeight + kHalf}, random);
   add_block(plan, {kHalf, kHalf}, {kCross - kHalf, kHeight - kHalf}, random);
   add_block(plan, {kCross + kHalf, kHalf}, {kLength - kHalf, kHeight - kHalf}, random);
@@ -129,7 +129,7 @@ World make_warehouse(std::uint64_t seed) {
   constexpr double kAisle = 3.8;  // from rack to rack
   constexpr int kRows = 7;
   Random random(seed);
-  FloorPlan plan;
+  BuildingPlan plan;
   add_hull(plan, {0, 0}, {kLength, kHeight}, random);
   Route route{{{2, 1.7}}, true};
   for (int row = 0; row < kRows; ++row) {
@@ -146,7 +146,7 @@ World make_warehouse(std::uint64_t seed) {
 World make_dormitory(std::uint64_t seed) {
   constexpr double kLength = 64;
   constexpr double kHalf = 1.1;
-  FloorPlan plan;
+  BuildingPlan plan;
   const std::vector<Room> north = add_rooms(plan, {{0, kHalf}, {kLength, kHalf}});
   const std::vector<Room> south = add_rooms(plan, {{kLength, -kHalf}, {0, -kHalf}});
   plan.wall({0, -kHalf}, {0, kHalf});
@@ -166,7 +166,7 @@ World make_rotunda(std::uint64_t seed) {
   constexpr double kHalf = 1.2;
   constexpr double kTurn = 2 * std::numbers::pi;
   Random random(seed);
-  FloorPlan plan;
+  BuildingPlan plan;
   add_arc(plan, kRadius + kHalf, 0, kTurn, 0.3, random);
   const double inner = kRadius - kHalf;
   const double mouth = std::asin(kHalf / inner);

@@ -1,7 +1,7 @@
 // Five buildings unlike the shipped worlds, to see whether what is right there is right elsewhere.
 #pragma once
 
-#include "helicoid/simulation/floor_plan.hpp"
+#include "helicoid/simulation/building_plan.hpp"
 
 namespace helicoid {
 

@@ -1,4 +1,4 @@
-#include "helicoid/simulation/floor_plan.hpp"
+#include "helicoid/simulation/building_plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ std::size_t differing(std::span<const Piece> a, std::span<const Piece> b) {
   return count;
 }
 
-TEST(FloorPlan, AWallIsOpenWhereItsDoorsAre) {
-  FloorPlan plan;
+TEST(BuildingPlan, AWallIsOpenWhereItsDoorsAre) {
+  BuildingPlan plan;
   const double doors[] = {2, 5};
   plan.wall_with_doors({0, 0}, {8, 0}, doors, 1);
   const RayCaster walls(plan.walls);
@@ -29,8 +29,8 @@ TEST(FloorPlan, AWallIsOpenWhereItsDoorsAre) {
   }
 }
 
-TEST(FloorPlan, RoomsAreEnteredByTheirDoorsAndLieToTheLeft) {
-  FloorPlan plan;
+TEST(BuildingPlan, RoomsAreEnteredByTheirDoorsAndLieToTheLeft) {
+  BuildingPlan plan;
   const std::vector<Room> rooms = add_rooms(plan, {{20, 0}, {0, 0}});
   ASSERT_EQ(rooms.size(), 5U);
   const RayCaster walls(plan.walls);
@@ -41,8 +41,8 @@ TEST(FloorPlan, RoomsAreEnteredByTheirDoorsAndLieToTheLeft) {
   }
 }
 
-TEST(FloorPlan, AsManyPiecesAreMovedAsWereAskedFor) {
-  FloorPlan plan;
+TEST(BuildingPlan, AsManyPiecesAreMovedAsWereAskedFor) {
+  BuildingPlan plan;
   const std::vector<Room> rooms = add_rooms(plan, {{0, 0}, {20, 0}});
   const std::vector<Piece> pieces = furnish(rooms, 3, Random(4));
   ASSERT_EQ(pieces.size(), 15U);

@@ -6,7 +6,7 @@
 
 namespace helicoid {
 
-struct FloorPlan {
+struct BuildingPlan {
   std::vector<Segment> walls;
 
   void line(const Vector2d& a, const Vector2d& b) { walls.push_back({a, b}); }
@@ -42,13 +42,13 @@ struct Room {
 };
 
 /// Adds the row's walls; its rooms in order.
-std::vector<Room> add_rooms(FloorPlan& plan, const RoomRow& row);
+std::vector<Room> add_rooms(BuildingPlan& plan, const RoomRow& row);
 
 /// Beds, cupboards, tables and bins in the back of each room, from a seed: the same seed, the same places.
 [[nodiscard]] std::vector<Piece> furnish(std::span<const Room> rooms, int pieces_in_room, Random random);
 /// `count` of the pieces, at most all of them, put elsewhere in their rooms; the rest as they were.
 [[nodiscard]] std::vector<Piece> rearranged(std::vector<Piece> pieces, std::span<const Room> rooms, std::size_t count,
                                             Random random);
-void add(FloorPlan& plan, std::span<const Piece> pieces);
+void add(BuildingPlan& plan, std::span<const Piece> pieces);
 
 }  // namespace helicoid

@@ -1,4 +1,4 @@
-#include "helicoid/simulation/floor_plan.hpp"
+#include "helicoid/simulation/building_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,15 +21,15 @@ Pose2 draw_place(const Room& room, Random& random) {
 
 }  // namespace
 
-void FloorPlan::wall(const Vector2d& a, const Vector2d& b, double thickness) {
+void BuildingPlan::wall(const Vector2d& a, const Vector2d& b, double thickness) {
   const Vector2d along = 0.5 * thickness * (b - a).normalized();
   const Vector2d across(-along.y(), along.x());
   const Vector2d corners[] = {a - along - across, b + along - across, b + along + across, a - along + across};
   for (std::size_t i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4]);
 }
 
-void FloorPlan::wall_with_doors(const Vector2d& a, const Vector2d& b, std::span<const double> doors,
-                                double door_width) {
+void BuildingPlan::wall_with_doors(const Vector2d& a, const Vector2d& b, std::span<const double> doors,
+                                   double door_width) {
   const Vector2d along = (b - a).normalized();
   Vector2d from = a;
   for (const double door : doors) {
@@ -39,7 +39,7 @@ void FloorPlan::wall_with_doors(const Vector2d& a, const Vector2d& b, std::span<
   wall(from, b);
 }
 
-void FloorPlan::wall_with_niches(const Vector2d& a, const Vector2d& b, Random& random) {
+void BuildingPlan::wall_with_niches(const Vector2d& a, const Vector2d& b, Random& random) {
   const double length = (b - a).norm();
   const Vector2d along = (b - a) / length;
   const Vector2d aside(-along.y(), along.x());
@@ -61,13 +61,13 @@ void FloorPlan::wall_with_niches(const Vector2d& a, const Vector2d& b, Random& r
   line(last, b);
 }
 
-void FloorPlan::box(const Pose2& T_world_middle, double length, double width) {
+void BuildingPlan::box(const Pose2& T_world_middle, double length, double width) {
   const Vector2d half(0.5 * length, 0.5 * width);
   const Vector2d corners[] = {{-half.x(), -half.y()}, {half.x(), -half.y()}, half, {-half.x(), half.y()}};
   for (std::size_t i = 0; i < 4; ++i) line(T_world_middle * corners[i], T_world_middle * corners[(i + 1) % 4]);
 }
 
-void FloorPlan::disc(const Vector2d& middle, double radius) {
+void BuildingPlan::disc(const Vector2d& middle, double radius) {
   constexpr int kCorners = 10;
   const auto corner = [&](int i) {
     const double angle = 2 * std::numbers::pi * i / kCorners;
@@ -76,7 +76,7 @@ void FloorPlan::disc(const Vector2d& middle, double radius) {
   for (int i = 0; i < kCorners; ++i) line(corner(i), corner(i + 1));
 }
 
-std::vector<Room> add_rooms(FloorPlan& plan, const RoomRow& row) {
+std::vector<Room> add_rooms(BuildingPlan& plan, const RoomRow& row) {
   const double length = (row.to - row.from).norm();
   const Vector2d along = (row.to - row.from) / length;
   const Vector2d into(-along.y(), along.x());
@@ -131,7 +131,7 @@ std::vector<Piece> rearranged(std::vector<Piece> pieces, std::span<const Room> r
   return pieces;
 }
 
-void add(FloorPlan& plan, std::span<const Piece> pieces) {
+void add(BuildingPlan& plan, std::span<const Piece> pieces) {
   for (const Piece& piece : pieces) {
     switch (piece.kind) {
       case 0: plan.box(piece.T_world_piece, 1.1, 0.5); break;
