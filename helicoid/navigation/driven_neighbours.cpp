@@ -13,31 +13,12 @@ void insert(std::vector<PatchId>& sorted, PatchId id) {
 
 }  // namespace
 
-bool DrivenNeighbours::follows(const Map& map) const {
-  if (map.robots().size() < readers_.size()) return false;
-  for (std::size_t i = 0; i < readers_.size(); ++i) {
-    const Reader& reader = readers_[i];
-    const Trajectory& trajectory = map.robots()[i].trajectory;
-    if (trajectory.size() < reader.scans) return false;
-    if (reader.scans > 0 && trajectory[reader.scans - 1].pose != reader.last.pose) return false;
-  }
-  return true;
-}
-
 void DrivenNeighbours::read(const Map& map) {
-  if (!follows(map)) *this = {};
-  readers_.resize(map.robots().size());
-  for (std::size_t i = 0; i < readers_.size(); ++i) {
-    Reader& reader = readers_[i];
-    const Trajectory& trajectory = map.robots()[i].trajectory;
-    for (; reader.scans < trajectory.size(); ++reader.scans) {
-      const TrackedScan scan = trajectory[reader.scans];
-      const PatchId from = reader.last.pose.patch;
-      const PatchId to = scan.pose.patch;
-      if (reader.scans > 0 && from != to) driven_.push_back(std::minmax(from, to));
-      reader.last = scan;
-    }
-  }
+  if (!reader_.follows(map)) *this = {};
+  reader_.read_on(map, [&](std::size_t, const TrackedScan& scan, const TrackedScan* before) {
+    if (before == nullptr || before->pose.patch == scan.pose.patch) return;
+    driven_.push_back(std::minmax(before->pose.patch, scan.pose.patch));
+  });
   std::sort(driven_.begin(), driven_.end());
   driven_.erase(std::unique(driven_.begin(), driven_.end()), driven_.end());
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "helicoid/manifold/neighbours.hpp"
+#include "helicoid/navigation/trajectory_reader.hpp"
 
 namespace helicoid {
 
@@ -18,15 +19,9 @@ class DrivenNeighbours {
   [[nodiscard]] Neighbours add_to(const Map& map, Neighbours neighbours);
 
  private:
-  /// Up to where a robot's trajectory was read.
-  struct Reader {
-    std::size_t scans = 0;
-    TrackedScan last;
-  };
-  [[nodiscard]] bool follows(const Map& map) const;
   void read(const Map& map);
 
-  std::vector<Reader> readers_;
+  TrajectoryReader reader_;
   std::vector<std::pair<PatchId, PatchId>> driven_;  ///< lower id first
 };
 

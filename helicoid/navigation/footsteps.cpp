@@ -8,37 +8,18 @@ constexpr double kStep = 0.10;  // metres
 
 }  // namespace
 
-bool Footsteps::follows(const Map& map) const {
-  if (map.robots().size() < readers_.size()) return false;
-  for (std::size_t i = 0; i < readers_.size(); ++i) {
-    const Reader& reader = readers_[i];
-    if (reader.scans == 0) continue;
-    const Trajectory& trajectory = map.robots()[i].trajectory;
-    if (trajectory.size() < reader.scans) return false;
-    const TrackedScan last = trajectory[reader.scans - 1];
-    if (last.stamp != reader.last.stamp || last.pose != reader.last.pose) return false;
-  }
-  return true;
-}
-
 void Footsteps::read(const Map& map) {
-  if (!follows(map)) *this = {};
-  readers_.resize(map.robots().size());
-  for (std::size_t i = 0; i < readers_.size(); ++i) {
-    Reader& reader = readers_[i];
-    const Trajectory& trajectory = map.robots()[i].trajectory;
-    for (; reader.scans < trajectory.size(); ++reader.scans) {
-      reader.last = trajectory[reader.scans];
-      const Vector2d p_plane = map.project(reader.last.pose).translation();
-      const bool moved = !reader.patch.valid() ||
-                         map.island_of(reader.patch) != map.island_of(reader.last.pose.patch) ||
-                         (p_plane - reader.p_plane).norm() >= kStep;
-      if (!moved) continue;
-      reader.p_plane = p_plane;
-      reader.patch = reader.last.pose.patch;
-      points_.push_back(point_of(reader.last.pose));
-    }
-  }
+  if (!reader_.follows(map)) *this = {};
+  steps_.resize(map.robots().size());
+  reader_.read_on(map, [&](std::size_t robot, const TrackedScan& scan, const TrackedScan*) {
+    Step& step = steps_[robot];
+    const Vector2d p_plane = map.project(scan.pose).translation();
+    const bool moved = !step.patch.valid() || map.island_of(step.patch) != map.island_of(scan.pose.patch) ||
+                       (p_plane - step.p_plane).norm() >= kStep;
+    if (!moved) return;
+    step = {scan.pose.patch, p_plane};
+    points_.push_back(point_of(scan.pose));
+  });
 }
 
 }  // namespace helicoid

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "helicoid/navigation/manifold_point.hpp"
+#include "helicoid/navigation/trajectory_reader.hpp"
 
 namespace helicoid {
 
@@ -15,16 +16,14 @@ class Footsteps {
   [[nodiscard]] const std::vector<ManifoldPoint>& points() const { return points_; }
 
  private:
-  /// Up to where a robot's trajectory was read.
-  struct Reader {
-    std::size_t scans = 0;
-    TrackedScan last;
-    Vector2d p_plane = Vector2d::Zero();  ///< of the last step that was kept
+  /// The last that was kept of a robot.
+  struct Step {
     PatchId patch;
+    Vector2d p_plane = Vector2d::Zero();
   };
-  [[nodiscard]] bool follows(const Map& map) const;
 
-  std::vector<Reader> readers_;
+  TrajectoryReader reader_;
+  std::vector<Step> steps_;  ///< by robot
   std::vector<ManifoldPoint> points_;
 };
 
