@@ -116,27 +116,27 @@ struct Fit {
 };
 
 Fit fit_from(const Map& map, const TwoPlaces& places, const PosePrior& prior, double least_score,
-             double most_contradicted) {
+             const LookAlikeOptions& options) {
   Fit fit;
   fit.alignment = align_scan(places.reference, places.points_b, prior, places.align);
   if (!fit.alignment.usable() || fit.alignment.inlier_share < least_score) return fit;
   fit.contradicted = contradicted_share(map, places, fit.alignment.T_reference_scan);
-  fit.usable = fit.contradicted < most_contradicted;
+  fit.usable = fit.contradicted < options.most_contradicted;
   return fit;
 }
-Fit fit_from(const Map& map, const TwoPlaces& places, const PosePrior& prior, const LookAlikeOptions& options) {
-  return fit_from(map, places, prior, options.least_score, options.most_contradicted);
+
+/// True if part of a place fits that is large enough to tell, and next to nothing speaks against it.
+bool fits_in_part(const TwoPlaces& places, const Fit& fit, const LookAlikeOptions& options) {
+  return fit.alignment.inlier_share * static_cast<double>(places.points_b.size()) >= options.least_part &&
+         fit.contradicted < options.most_contradicted_part;
 }
 
-/// Where the map itself says how the two lie, it need not be the whole place that was seen from both: enough of it is,
-/// and next to nothing speaks against it.
+/// Where the map itself says how the two lie, part of the place is enough.
 Fit fit_near(const Map& map, const TwoPlaces& places, const Candidate& candidate, const LookAlikeOptions& options) {
-  const Fit fit = fit_from(map, places, {candidate.T_a_b.T_a_b, candidate.T_a_b.covariance.inverse()},
-                           options.least_score_near, options.most_contradicted);
-  const double inliers = fit.alignment.inlier_share * static_cast<double>(places.points_b.size());
+  const PosePrior prior{candidate.T_a_b.T_a_b, candidate.T_a_b.covariance.inverse()};
+  const Fit fit = fit_from(map, places, prior, options.least_score_near, options);
   const bool is_whole = fit.alignment.inlier_share >= options.least_score;
-  const bool is_part = inliers >= options.least_part && fit.contradicted < options.most_contradicted_part;
-  return is_whole || is_part ? fit : Fit{};
+  return is_whole || fits_in_part(places, fit, options) ? fit : Fit{};
 }
 
 /// The best fit, and the best of those apart from it.
@@ -151,7 +151,8 @@ Fits search(const Map& map, const TwoPlaces& places, const PlaceWindow& window, 
   const PlaceSearch found = search_place(places.reference, places.points_b, window);
   const auto fit_at = [&](const Placement& placement) {
     if (placement.score <= 0) return Fit{};
-    return fit_from(map, places, {placement.T_reference_scan, 1e-3 * Matrix3d::Identity()}, options);
+    return fit_from(map, places, {placement.T_reference_scan, 1e-3 * Matrix3d::Identity()}, options.least_score,
+                    options);
   };
   Fits fits{fit_at(found.best), fit_at(found.second)};
   fits.prefer_better(options);
@@ -182,8 +183,7 @@ Fits search_from_middle(const Map& map, const TwoPlaces& places, const Candidate
 bool is_foretold(const Candidate& candidate, const TwoPlaces& places, const Fit& fit, const LookAlikeOptions& options) {
   constexpr double kChi2 = 11.345;  // 99 % at three degrees of freedom
   if (confidence_interval(candidate.T_a_b.covariance).position > options.foretold) return false;
-  if (fit.alignment.status != AlignStatus::aligned || fit.contradicted >= options.most_contradicted_part) return false;
-  if (fit.alignment.inlier_share * static_cast<double>(places.points_b.size()) < options.least_part) return false;
+  if (fit.alignment.status != AlignStatus::aligned || !fits_in_part(places, fit, options)) return false;
   const Pose2& T_map = candidate.T_a_b.T_a_b;
   const Pose2& T = fit.alignment.T_reference_scan;
   const Vector3d difference(T.x - T_map.x, T.y - T_map.y, wrap_angle(T.yaw - T_map.yaw));
