@@ -10,13 +10,11 @@ const char* name_of(JournalKind kind) {
     case JournalKind::joined: return "joined";
     case JournalKind::died: return "died";
     case JournalKind::goal: return "goal";
-    case JournalKind::arrived: return "arrived";
     case JournalKind::blocked: return "blocked";
     case JournalKind::merge: return "merge";
     case JournalKind::closure: return "closure";
     case JournalKind::rendezvous: return "rendezvous";
     case JournalKind::collision: return "collision";
-    case JournalKind::order: return "order";
     case JournalKind::radio: return "radio";
     case JournalKind::end: return "end";
   }

@@ -11,13 +11,11 @@ enum class JournalKind : std::uint8_t {
   joined,      ///< a robot began
   died,        ///< a robot fell silent for good
   goal,        ///< a robot was given somewhere to go
-  arrived,     ///< it got there
   blocked,     ///< it could not get on, and another way is looked for
   merge,       ///< two islands were joined
   closure,     ///< a loop was closed
   rendezvous,  ///< two robots stood at places that look alike, or were sent there
   collision,   ///< a robot touched something
-  order,       ///< an operator's word
   radio,       ///< a robot is out of contact, or back
   end,
 };

@@ -102,10 +102,11 @@ void TeamPilot::plan(double now, std::span<const Order> orders) {
   std::vector<DistanceField> fields;
   std::vector<Travel> travel;
   std::vector<TeamMember> team;
+  Neighbours neighbours;
   {
     const Timed timed(times_.floor_s);
-    neighbours_ = driven_.add_to(map(), find_neighbours(map()));
-    floor_ = NavigableMap(map(), neighbours_, options_.navigation, floor_ ? &*floor_ : nullptr);
+    neighbours = driven_.add_to(map(), find_neighbours(map()));
+    floor_ = NavigableMap(map(), neighbours, options_.navigation, floor_ ? &*floor_ : nullptr);
     for (const Member& m : members_) fields.push_back(distances_from(*floor_, m.pose));
   }
   const Timed timed(times_.plan_s);
@@ -114,8 +115,8 @@ void TeamPilot::plan(double now, std::span<const Order> orders) {
     team.push_back({m.robot, m.pose, m.reachable, 1, m.home});
     travel.emplace_back([&fields, i](const ManifoldPoint& p) { return fields[i].metres_to(p); });
   }
-  plan_ = planner_ ? planner_(now, map(), neighbours_, travel, team)
-                   : explorer_.plan(now, map(), neighbours_, travel, team, open_doubts(), orders);
+  plan_ = planner_ ? planner_(now, map(), neighbours, travel, team)
+                   : explorer_.plan(now, map(), neighbours, travel, team, open_doubts(), orders);
   for (const Settled& settled : plan_.settled) settle(now, settled);
   for (const Goal& goal : plan_.goals) {
     if (Member* m = member(goal.robot)) direct(*m, goal, now);

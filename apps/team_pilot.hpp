@@ -85,7 +85,6 @@ class TeamPilot {
   Explorer explorer_;
   Planner planner_;
   DrivenNeighbours driven_;
-  Neighbours neighbours_;
   std::optional<NavigableMap> floor_;
   std::vector<Member> members_;  ///< those on the map, in the order in which they came
   std::vector<std::size_t> steered_;
