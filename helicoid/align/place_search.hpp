@@ -2,7 +2,7 @@
 // placements: exact on its grid, however many local optima there are (after Olson 2009; Hess et al. 2016).
 #pragma once
 
-#include "helicoid/align/reference.hpp"
+#include "helicoid/align/score_pyramid.hpp"
 
 namespace helicoid {
 
@@ -26,6 +26,10 @@ struct PlaceSearch {
   Placement second;  ///< the best of those apart from it; score 0: none reaches the least score
 };
 
+/// Where the points fit within the window; the pyramid is of what they are to fit. An empty result if nothing does.
+[[nodiscard]] PlaceSearch search_place(const ScorePyramid& pyramid, const ScanPoints& points,
+                                       const PlaceWindow& window);
+/// The same for a single search.
 [[nodiscard]] PlaceSearch search_place(const Reference& reference, const ScanPoints& points, const PlaceWindow& window);
 
 }  // namespace helicoid

@@ -32,7 +32,9 @@ Matrix3d pair_covariance(const Matrix3d& information) {
   const Eigen::LDLT<Matrix3d> factor(information);
   const Vector3d pivots = factor.vectorD();
   if (!(pivots.minCoeff() > kOpen * pivots.maxCoeff())) return 1e12 * Matrix3d::Identity();
-  const Matrix3d covariance = factor.solve(Matrix3d::Identity());
+  Matrix3d covariance;
+  // By columns: a product with the whole identity is solved by a kernel for large matrices.
+  for (Eigen::Index c = 0; c < 3; ++c) covariance.col(c) = factor.solve(Vector3d::Unit(c));
   return 0.5 * (covariance + covariance.transpose());
 }
 

@@ -14,12 +14,11 @@ namespace {
 
 /// All that an island's patches saw, in its plane, and a window that holds every placement on it.
 struct IslandView {
-  Reference reference;
+  ScorePyramid pyramid;
   PlaceWindow window;
 };
 
 IslandView view_of(const Map& map, const Island& island, const IslandEvidenceOptions& options) {
-  IslandView view;
   std::vector<ReferencePart> parts;
   Vector2d low(HUGE_VAL, HUGE_VAL);
   Vector2d high = -low;
@@ -28,7 +27,9 @@ IslandView view_of(const Map& map, const Island& island, const IslandEvidenceOpt
     low = low.cwiseMin(map.T_plane_patch(id).translation());
     high = high.cwiseMax(map.T_plane_patch(id).translation());
   }
-  view.reference.build(parts);
+  Reference reference;
+  reference.build(parts);
+  IslandView view{ScorePyramid(reference), {}};
   const Vector2d middle = 0.5 * (low + high);
   view.window.T_reference_scan = {middle.x(), middle.y(), 0};
   view.window.half_width = 0.5 * (high - low).maxCoeff() + 2;
@@ -66,7 +67,8 @@ std::optional<Hypothesis> look_for(const Map& map, const InformationGraph& graph
                                    const IslandView& view, const MapperOptions& mapper,
                                    const IslandEvidenceOptions& options) {
   const LookAlikeOptions look_alike;
-  const PlaceSearch found = search_place(view.reference, points_about(map, place, look_alike), view.window);
+  const PlaceBefore seen = see_place(map, place, look_alike);
+  const PlaceSearch found = search_place(view.pyramid, seen.points, view.window);
   if (found.best.score <= 0) return std::nullopt;
   const Pose2& T_plane_place = found.best.T_reference_scan;
   const PatchId a = nearest_patch(map, there, T_plane_place.translation());
@@ -74,7 +76,7 @@ std::optional<Hypothesis> look_for(const Map& map, const InformationGraph& graph
   const double position = options.placed_within / 1.96;
   const double heading = options.placed_within_turn / 1.96;
   candidate.T_a_b.covariance.diagonal() << position * position, position * position, heading * heading;
-  std::optional<Hypothesis> h = compare_places(map, graph, candidate, place, mapper, look_alike);
+  std::optional<Hypothesis> h = compare_places(map, graph, candidate, seen, mapper, look_alike);
   if (!h) return std::nullopt;
   h->ambiguity = found.second.score / found.best.score;
   if (h->b < h->a) {

@@ -43,8 +43,10 @@ PlaceWindow window_about(const Candidate& candidate, const LookAlikeOptions& opt
 
 }  // namespace
 
-ScanPoints points_about(const Map& map, PatchId b, const LookAlikeOptions& options) {
-  return points_of(map, views_of_place(map, b, patches_before(map, b, options)));
+PlaceBefore see_place(const Map& map, PatchId b, const LookAlikeOptions& options) {
+  PlaceBefore place{b, views_of_place(map, b, patches_before(map, b, options)), {}};
+  place.points = standing_points(map, place.views);
+  return place;
 }
 
 std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& graph, PatchId b,
@@ -85,22 +87,23 @@ std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& g
 
 namespace {
 
-TwoPlaces look_at(const Map& map, const InformationGraph& graph, const Candidate& candidate, PatchId b,
+TwoPlaces look_at(const Map& map, const InformationGraph& graph, const Candidate& candidate, const PlaceBefore& place,
                   const MapperOptions& mapper, const LookAlikeOptions& options) {
   TwoPlaces places;
-  const std::vector<PatchId> place = patches_before(map, b, options);
-  places.views_b = views_of_place(map, b, place);
-  places.points_b = standing_points(map, places.views_b);
+  places.views_b = place.views;
+  places.points_b = place.points;
   const bool wide = window_about(candidate, options).half_width > options.wide;
   MapperOptions surroundings = mapper;
   if (wide) surroundings.local_radius = options.wide_reach;
   LocalMap local = find_local_map(map, graph, candidate.a, surroundings);
-  std::erase_if(local, [&](const LocalPatch& p) { return std::count(place.begin(), place.end(), p.patch) > 0; });
+  std::erase_if(local, [&](const LocalPatch& p) {
+    return std::any_of(place.views.begin(), place.views.end(), [&](const LocalPatch& v) { return v.patch == p.patch; });
+  });
   places.views_a = nearest_views(local, Pose2{}, wide ? options.wide_views : options.views);
   places.points_a = standing_points(map, places.views_a);
   places.reference.build(reference_parts(map, places.views_a));
-  places.align = align_options(map.patch(b).laser);
-  places.align.kappa *= static_cast<double>(place.size());
+  places.align = align_options(map.patch(place.b).laser);
+  places.align.kappa *= static_cast<double>(place.views.size());
   return places;
 }
 
@@ -147,8 +150,9 @@ struct Fits {
   }
 };
 
-Fits search(const Map& map, const TwoPlaces& places, const PlaceWindow& window, const LookAlikeOptions& options) {
-  const PlaceSearch found = search_place(places.reference, places.points_b, window);
+Fits search(const Map& map, const TwoPlaces& places, const ScorePyramid& pyramid, const PlaceWindow& window,
+            const LookAlikeOptions& options) {
+  const PlaceSearch found = search_place(pyramid, places.points_b, window);
   const auto fit_at = [&](const Placement& placement) {
     if (placement.score <= 0) return Fit{};
     return fit_from(map, places, {placement.T_reference_scan, 1e-3 * Matrix3d::Identity()}, options.least_score,
@@ -162,12 +166,14 @@ Fits search(const Map& map, const TwoPlaces& places, const PlaceWindow& window, 
 /// What fits near where the map has it is believed before what fits at the window's edge; but that is a rival.
 Fits search_from_middle(const Map& map, const TwoPlaces& places, const Candidate& candidate,
                         const LookAlikeOptions& options) {
+  if (places.reference.empty()) return {};
+  const ScorePyramid pyramid(places.reference);
   const PlaceWindow whole = window_about(candidate, options);
-  if (whole.half_width <= options.wide) return search(map, places, whole, options);
+  if (whole.half_width <= options.wide) return search(map, places, pyramid, whole, options);
   PlaceWindow middle = whole;
   middle.half_width = std::max(options.wide, whole.half_width / options.sigmas);
-  Fits fits = search(map, places, middle, options);
-  Fits far = search(map, places, whole, options);
+  Fits fits = search(map, places, pyramid, middle, options);
+  Fits far = search(map, places, pyramid, whole, options);
   if (!fits.best.usable) return far;
   for (const Fit& other : {far.best, far.second}) {
     const Pose2 apart = fits.best.alignment.T_reference_scan.inverse() * other.alignment.T_reference_scan;
@@ -197,8 +203,9 @@ double merit_of(const Hypothesis& h, const LookAlikeOptions& options) {
 }
 
 std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph& graph, const Candidate& candidate,
-                                         PatchId b, const MapperOptions& mapper, const LookAlikeOptions& options) {
-  const TwoPlaces places = look_at(map, graph, candidate, b, mapper, options);
+                                         const PlaceBefore& place, const MapperOptions& mapper,
+                                         const LookAlikeOptions& options) {
+  const TwoPlaces places = look_at(map, graph, candidate, place, mapper, options);
   Fits fits;
   if (confidence_interval(candidate.T_a_b.covariance).position > options.narrow) {
     fits = search_from_middle(map, places, candidate, options);
@@ -211,13 +218,13 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
 
   Hypothesis h;
   h.a = candidate.a;
-  h.b = b;
+  h.b = place.b;
   h.ambiguity = std::min(1.0, fits.second.merit(options) / best.merit(options));
   if (alignment.status == AlignStatus::degenerate && h.ambiguity > 0) return std::nullopt;
   h.T_a_b.T_a_b = alignment.T_reference_scan;
   h.T_a_b.covariance = (alignment.information / places.align.kappa + 1e-3 * Matrix3d::Identity()).inverse();
   const LaserModel& laser_a = map.patch(candidate.a).laser;
-  const LaserModel& laser_b = map.patch(b).laser;
+  const LaserModel& laser_b = map.patch(place.b).laser;
   h.T_a_b.covariance = with_noise_floor(h.T_a_b, noise_floor(laser_a.floor_position, laser_a.floor_heading),
                                         noise_floor(laser_b.floor_position, laser_b.floor_heading));
   h.score = alignment.inlier_share;

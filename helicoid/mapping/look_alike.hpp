@@ -34,8 +34,13 @@ struct LookAlikeOptions {
   double most_contradicted_part = 0.02;  ///< and next to nothing speaks against it
 };
 
-/// What was seen about b: the points of the patches that its robot kept on the last few metres, in b's frame.
-[[nodiscard]] ScanPoints points_about(const Map& map, PatchId b, const LookAlikeOptions& options);
+/// What was seen about b, in b's frame.
+struct PlaceBefore {
+  PatchId b;
+  std::vector<LocalPatch> views;  ///< b and what its robot kept on the last few metres before it
+  ScanPoints points;              ///< of what stood still meanwhile
+};
+[[nodiscard]] PlaceBefore see_place(const Map& map, PatchId b, const LookAlikeOptions& options);
 
 /// A patch that may show the same place, and where.
 struct Candidate {
@@ -49,9 +54,9 @@ struct Candidate {
                                                      std::span<const BoundedPose> bounds, const LocalMap& known,
                                                      const LookAlikeOptions& options);
 
-/// Aligns what was seen about b with what was seen about a, over the whole window. Nothing if they do not fit.
+/// Aligns what was seen about a place with what was seen about a, over the whole window. Nothing if they do not fit.
 [[nodiscard]] std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph& graph,
-                                                       const Candidate& candidate, PatchId b,
+                                                       const Candidate& candidate, const PlaceBefore& place,
                                                        const MapperOptions& mapper, const LookAlikeOptions& options);
 
 /// What speaks for an entry, less what speaks against it: 0..1.

@@ -78,9 +78,12 @@ std::vector<std::size_t> LoopCloser::look_about(const Map& map, const Informatio
   BoundOptions everything = bound_options(map.patch(b), 1e3, 1e3, 1e9);
   everything.most = map.patch_count();
   const std::vector<BoundedPose> about_b = tree_bound(graph, map.poses(), b.value, everything);
+  const std::vector<Candidate> candidates = find_candidates(map, graph, b, about_b, known, options);
+  if (candidates.empty()) return {};
+  const PlaceBefore place = see_place(map, b, options);
   std::vector<Hypothesis> found;
-  for (const Candidate& candidate : find_candidates(map, graph, b, about_b, known, options)) {
-    if (std::optional<Hypothesis> h = compare_places(map, graph, candidate, b, mapper_, options)) {
+  for (const Candidate& candidate : candidates) {
+    if (std::optional<Hypothesis> h = compare_places(map, graph, candidate, place, mapper_, options)) {
       h->reason = kWaits;
       found.push_back(std::move(*h));
     }

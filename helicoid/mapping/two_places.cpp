@@ -13,23 +13,31 @@ constexpr std::size_t kPlacePoints = 700;
 /// A point this far within free space contradicts it, metres.
 constexpr float kDeep = 0.35F;
 
+/// A view's free space, asked in b's frame.
+struct FreeFrom {
+  SeenFree seen_free;
+  Eigen::Matrix2f R_view_b;
+  Eigen::Vector2f t_view_b;
+
+  [[nodiscard]] bool is_deep(const Eigen::Vector2f& p_b) const {
+    return seen_free.is_deep(R_view_b * p_b + t_view_b, kDeep);
+  }
+};
+
 /// Which points (in b's frame) lie deep in free space of one of the views.
 std::vector<bool> seen_through(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
                                const Pose2& T_a_b) {
-  std::vector<SeenFree> seen_free;
-  std::vector<Pose2> T_view_b;
-  seen_free.reserve(views.size());
-  T_view_b.reserve(views.size());
+  std::vector<FreeFrom> from;
+  from.reserve(views.size());
   for (const LocalPatch& view : views) {
-    seen_free.emplace_back(map.patch(view.patch));
-    T_view_b.push_back(view.T_anchor_patch.inverse() * T_a_b);
+    const Pose2 T_view_b = view.T_anchor_patch.inverse() * T_a_b;
+    from.push_back(
+        {SeenFree(map.patch(view.patch)), T_view_b.rotation().cast<float>(), T_view_b.translation().cast<float>()});
   }
   std::vector<bool> inside(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector2d p_b(points.x[i], points.y[i]);
-    for (std::size_t k = 0; k < seen_free.size() && !inside[i]; ++k) {
-      inside[i] = seen_free[k].is_deep((T_view_b[k] * p_b).cast<float>(), kDeep);
-    }
+    const Eigen::Vector2f p_b(points.x[i], points.y[i]);
+    inside[i] = std::any_of(from.begin(), from.end(), [&](const FreeFrom& view) { return view.is_deep(p_b); });
   }
   return inside;
 }
