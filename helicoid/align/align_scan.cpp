@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "helicoid/align/paired_points.hpp"
 #include "helicoid/base/wide_lanes.hpp"
 
 namespace helicoid {
@@ -25,58 +26,7 @@ struct Sums {
   int inliers = 0;
 };
 
-/// Scan points with the surface elements that they were paired with; structure of arrays, padded to whole lanes with
-/// pairs of weight 0.
-struct Pairing {
-  static constexpr std::size_t kLanes = 8;
-  static constexpr std::size_t kMost = 2048;
-  std::array<float, kMost> px, py, qx, qy, nx, ny, weight;
-  std::size_t size = 0;
-  int candidates = 0;
-
-  void add(float x, float y, const SurfaceElement& e, float w) {
-    px[size] = x;
-    py[size] = y;
-    qx[size] = e.x;
-    qy[size] = e.y;
-    nx[size] = e.nx;
-    ny[size] = e.ny;
-    weight[size++] = w;
-  }
-  void pad() {
-    while (size % kLanes != 0) add(0, 0, {}, 0);
-  }
-};
-
-/// E step (IV-A step 3): pairs every stride-th point with the nearest surface of its side. `bias_share`: the incidence
-/// bias in standard deviations of a residual.
-HELICOID_WIDE_LANES
-void pair_points(const Reference& reference, const ScanPoints& scan, const Pose2& T, float gate, std::size_t stride,
-                 float bias_share, Pairing& pairing) {
-  const auto c = static_cast<float>(std::cos(T.yaw));
-  const auto s = static_cast<float>(std::sin(T.yaw));
-  const auto tx = static_cast<float>(T.x);
-  const auto ty = static_cast<float>(T.y);
-  pairing.size = 0;
-  pairing.candidates = 0;
-  const std::size_t most = std::min(scan.size(), Pairing::kMost * stride);
-  for (std::size_t i = 0; i < most; i += stride) {
-    if (scan.weight[i] <= 0) continue;
-    ++pairing.candidates;
-    const float x = scan.x[i];
-    const float y = scan.y[i];
-    const float nx = c * scan.nx[i] - s * scan.ny[i];
-    const float ny = s * scan.nx[i] + c * scan.ny[i];
-    const int found = reference.nearest({tx + c * x - s * y, ty + s * x + c * y, nx, ny}, gate);
-    if (found < 0) continue;
-    const SurfaceElement e = reference.element(static_cast<std::size_t>(found));
-    const float bias = bias_share * (scan.facing[i] - e.facing);
-    pairing.add(x, y, e, scan.weight[i] / (1 + bias * bias));
-  }
-  pairing.pad();
-}
-
-constexpr std::size_t kLanes = Pairing::kLanes;
+constexpr std::size_t kLanes = PairedPoints::kLanes;
 /// What is summed over the pairs, in lanes.
 enum Summand : std::uint8_t { xx, xy, yy, xt, yt, tt, gx, gy, gt, squares, weights, inliers, kSummands };
 
@@ -99,7 +49,7 @@ Sums gather(const float (&lanes)[kSummands][kLanes]) {
 /// Linearises the paired residuals at T (M step, IV-A step 4). Lane by lane and then over the lanes: a fixed tree,
 /// whatever the compiler makes of it.
 HELICOID_WIDE_LANES
-Sums sum_residuals(const Pairing& pairs, const Pose2& T, float robust_scale) {
+Sums sum_residuals(const PairedPoints& pairs, const Pose2& T, float robust_scale) {
   const auto c = static_cast<float>(std::cos(T.yaw));
   const auto s = static_cast<float>(std::sin(T.yaw));
   const auto tx = static_cast<float>(T.x);
@@ -158,7 +108,7 @@ struct Fitted {
 
 /// M step (IV-A step 4, eq. 13): from T the pose that fits the pairs and the prior. `against_prior`: information of one
 /// beam, correlations divided out.
-Fitted fit_pairs(const Pairing& pairs, Pose2 T, double robust_scale, const PosePrior& prior, double against_prior,
+Fitted fit_pairs(const PairedPoints& pairs, Pose2 T, double robust_scale, const PosePrior& prior, double against_prior,
                  double prior_freedom) {
   Sums sums;
   for (int inner = 0; inner < 2; ++inner) {
@@ -240,13 +190,15 @@ Alignment align_scan(const Reference& reference, const ScanPoints& scan, const P
   const double beam_information = 1 / (options.range_sigma * options.range_sigma);
   const auto bias_share = static_cast<float>(options.incidence_bias / options.range_sigma);
   Rounds rounds(options);
-  Pairing pairs;
+  int candidates = 0;
   Fitted fitted{prior.T_reference_scan, {}};
   for (bool done = false; !done;) {
     ++result.iterations;
     rounds.begin(result.iterations);
     const Pose2 T_paired = fitted.T;
-    pair_points(reference, scan, T_paired, static_cast<float>(rounds.gate()), rounds.stride(), bias_share, pairs);
+    const PairedPoints pairs =
+        pair_points(reference, scan, T_paired, static_cast<float>(rounds.gate()), rounds.stride(), bias_share);
+    candidates = pairs.candidates;
     fitted = fit_pairs(pairs, T_paired, std::max(options.robust_scale, 0.33 * rounds.gate()), prior,
                        beam_information / options.kappa, options.prior_freedom);
     done = rounds.end(difference(fitted.T, T_paired));
@@ -254,7 +206,7 @@ Alignment align_scan(const Reference& reference, const ScanPoints& scan, const P
   const Sums& sums = fitted.sums;
   result.T_reference_scan = fitted.T;
   result.information = beam_information * sums.information;
-  result.inlier_share = pairs.candidates > 0 ? static_cast<double>(sums.inliers) / pairs.candidates : 0;
+  result.inlier_share = candidates > 0 ? static_cast<double>(sums.inliers) / candidates : 0;
   result.rms = sums.weights > 0 ? std::sqrt(sums.squares / sums.weights) : 0;
   if (result.inlier_share < options.min_inlier_share) {
     result.status = AlignStatus::too_few_inliers;
@@ -271,12 +223,11 @@ Alignment align_scan_in_fan(const Reference& reference, const ScanPoints& scan, 
     double offset;
   };
   std::vector<Start> starts;
-  Pairing pairs;
   const int steps = static_cast<int>(std::ceil(fan.half_width / fan.step));
   for (int k = -steps; k <= steps; ++k) {
     Pose2 T = prior.T_reference_scan;
     T.yaw = wrap_angle(T.yaw + k * fan.step);
-    pair_points(reference, scan, T, 0.3F, 3, 0, pairs);
+    const PairedPoints pairs = pair_points(reference, scan, T, 0.3F, 3, 0);
     starts.push_back({sum_residuals(pairs, T, 0.1F).weights, k * fan.step});
   }
   std::stable_sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.score > b.score; });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "helicoid/align/nearest_on_side.hpp"
+#include "helicoid/align/open_direction.hpp"
 #include "helicoid/base/wide_lanes.hpp"
 #include "helicoid/sensor/beam_finder.hpp"
 
@@ -55,14 +56,29 @@ struct PointTransform {
         s(static_cast<float>(std::sin(T.yaw))),
         x(static_cast<float>(T.x)),
         y(static_cast<float>(T.y)) {}
+  [[nodiscard]] Eigen::Vector2f operator()(const Eigen::Vector2f& p) const {
+    return {x + c * p.x() - s * p.y(), y + s * p.x() + c * p.y()};
+  }
   float c, s, x, y;
 };
 
-}  // namespace
+/// A point of b, the line of a that it was found on, and what that is worth.
+struct Correspondence {
+  Eigen::Vector2f p_b, q_a, normal;
+  double weight;  ///< without the residual's
+};
+
+struct Correspondences {
+  std::vector<Correspondence> all;
+  NormalScatter scatter;
+  int candidates = 0;  ///< points of b with a normal that look at a place within a's view
+};
 
 HELICOID_WIDE_LANES
-PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T_a_b, const MatchPairOptions& options) {
-  PairMatch match;
+Correspondences find_correspondences(const PairReference& a, const ScanPoints& b, const Pose2& T_a_b,
+                                     const MatchPairOptions& options) {
+  Correspondences found;
+  found.all.reserve(b.size());
   const ScanPoints& lines = *a.points;
   const OrientedPoints oriented{lines.x.data(), lines.y.data(), lines.nx.data(), lines.ny.data(),
                                 static_cast<int>(lines.size())};
@@ -70,33 +86,47 @@ PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T
   const PointTransform to_a(T_a_b);
   const PointTransform to_laser(a.T_patch_laser.inverse() * T_a_b);
   const auto gate = static_cast<float>(options.gate);
-  const double information = 1 / (options.range_sigma * options.range_sigma);
   const double bias_share = options.incidence_bias / options.range_sigma;
-  const double per_square_scale = 1 / (options.robust_scale * options.robust_scale);
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (b.weight[i] <= 0) continue;
-    const float px = b.x[i];
-    const float py = b.y[i];
-    const auto range =
-        window.at(to_laser.x + to_laser.c * px - to_laser.s * py, to_laser.y + to_laser.s * px + to_laser.c * py);
+    const Eigen::Vector2f p_b(b.x[i], b.y[i]);
+    const Eigen::Vector2f p_laser = to_laser(p_b);
+    const auto range = window.at(p_laser.x(), p_laser.y());
     if (range.first == range.last) continue;
-    ++match.candidates;
-    const float x = to_a.x + to_a.c * px - to_a.s * py;
-    const float y = to_a.y + to_a.s * px + to_a.c * py;
+    ++found.candidates;
+    const Eigen::Vector2f p_a = to_a(p_b);
     const float nx = to_a.c * b.nx[i] - to_a.s * b.ny[i];
     const float ny = to_a.s * b.nx[i] + to_a.c * b.ny[i];
     // A scan is ordered by bearing, so only beams that look within the gate of the place need be read.
-    NearestOnSide nearest({x, y, nx, ny}, gate);
+    NearestOnSide nearest({p_a.x(), p_a.y(), nx, ny}, gate);
     nearest.look(oriented, range.first, range.last);
     const int j = nearest.found();
     if (j < 0) continue;
-    const Vector2d q_a(lines.x[j], lines.y[j]);
-    const Vector2d normal(lines.nx[j], lines.ny[j]);
-    const double residual = normal.dot(Vector2d(x, y) - q_a);
-    const double robust = 1 / (1 + residual * residual * per_square_scale);
     const double bias = bias_share * static_cast<double>(b.facing[i] - lines.facing[j]);
-    const double weight = static_cast<double>(b.weight[i]) * lines.weight[j] * robust * robust / (1 + bias * bias);
-    match.form.add(point_line_row(Vector2d(px, py), q_a, normal), weight * information);
+    const double weight = static_cast<double>(b.weight[i]) * lines.weight[j] / (1 + bias * bias);
+    found.all.push_back({p_b, {lines.x[j], lines.y[j]}, {lines.nx[j], lines.ny[j]}, weight});
+    found.scatter.add(lines.nx[j], lines.ny[j], weight);
+  }
+  return found;
+}
+
+}  // namespace
+
+HELICOID_WIDE_LANES
+PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T_a_b, const MatchPairOptions& options) {
+  const Correspondences found = find_correspondences(a, b, T_a_b, options);
+  const std::optional<Eigen::Vector2f> open = found.scatter.open_direction();
+  const PointTransform to_a(T_a_b);
+  const double information = 1 / (options.range_sigma * options.range_sigma);
+  const double per_square_scale = 1 / (options.robust_scale * options.robust_scale);
+  PairMatch match;
+  match.candidates = found.candidates;
+  for (const Correspondence& c : found.all) {
+    const Vector2d normal = (open ? squared_to(*open, c.normal) : c.normal).cast<double>();
+    const double residual = normal.dot((to_a(c.p_b) - c.q_a).cast<double>());
+    const double robust = 1 / (1 + residual * residual * per_square_scale);
+    const double weight = c.weight * robust * robust;
+    match.form.add(point_line_row(c.p_b.cast<double>(), c.q_a.cast<double>(), normal), weight * information);
     match.squares += weight * residual * residual;
     if (robust > 0.2) ++match.correspondences;
   }

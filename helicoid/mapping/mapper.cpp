@@ -146,8 +146,10 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
                            robot.extractors[scan.laser]);
   const std::vector<LocalPatch> views =
       select_views(map, robot.local, patch.points, T_anchor_robot, robot.last_kept, options.relation_views);
-  // The prior of the new patch's fit is odometry's only: the match's own beams must not count twice.
-  const RelatedPatch related = relate(map, views, patch, {T_anchor_robot, 1e-3 * Matrix3d::Identity()});
+  // The new patch's fit is worth no more beforehand than odometry: the match's own beams must not count twice. What the
+  // views leave open stays where the robot was followed to.
+  const PosePrior prior{T_anchor_robot, robot.motion.path_information(robot.path, robot.turn)};
+  const RelatedPatch related = relate(map, views, patch, prior);
   editor.add_patch(std::move(patch), map.T_plane_patch(anchor) * related.T_anchor_patch, map.island_of(anchor));
   graph.add_pose();
   for (const NewRelation& r : related.relations) {

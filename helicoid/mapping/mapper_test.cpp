@@ -56,6 +56,17 @@ TEST(Mapper, GivesEveryScanAPoseNearTheTruth) {
   EXPECT_LT(largest_error(two_laps(), d.truth), 0.10);
 }
 
+TEST(Mapper, ALaserThatMeasuresLongDoesNotHoldARobotBackInABareCorridor) {
+  // Its walls look bent about the place abreast of the robot, and that bend goes with it.
+  const std::vector<Segment> corridor{{{0, 0}, {60, 0}}, {{60, 2}, {0, 2}}};
+  Drive d = drive(1, 5, {{10, 1}, {40, 1}}, corridor);
+  for (Event& event : d.events) {
+    for (float& range : std::get<Scan>(event.body).ranges) range += 0.03F;
+  }
+  const Mapper mapper = map_events(d.events);
+  EXPECT_LT(largest_error(mapper.map(), d.truth), 0.02 * 30);
+}
+
 TEST(Manifold, AMatchedRobotStandsOnTheGroundOfItsPatch) {
   Mapper mapper;
   mapper.add_robot("robot1", {lms200()});
