@@ -1,6 +1,7 @@
 #include "helicoid/align/match_pair.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -65,7 +66,33 @@ struct PointTransform {
 /// A point of b, the line of a that it was found on, and what that is worth.
 struct Correspondence {
   Eigen::Vector2f p_b, q_a, normal;
+  double facing;  ///< b's cosine of incidence less a's
   double weight;  ///< without the residual's
+};
+
+/// What is bright or dark is measured long or short, beam after beam: across a wall by the cosine of incidence of that.
+/// A wall seen ahead and then abreast so seems to have moved or turned. Walls that look one way, within a sixteenth of
+/// a circle, share one such unknown.
+class SurfaceBiases {
+ public:
+  void add(const Vector5d& row, const Vector2d& normal, double facing, double weight) {
+    by_sector_[sector(normal)].add(row, facing, weight);
+  }
+  void marginalise(PairForm& form, double sigma) const {
+    for (const SharedUnknown& shared : by_sector_) {
+      if (shared.square > 0) form.marginalise(shared, sigma);
+    }
+  }
+
+ private:
+  static std::size_t sector(const Vector2d& n) {
+    constexpr double kHalfOctant = 0.41421356;  // tan 22.5 degrees
+    const double x = std::abs(n.x());
+    const double y = std::abs(n.y());
+    return (n.x() < 0 ? 1U : 0U) + (n.y() < 0 ? 2U : 0U) + (y > x ? 4U : 0U) +
+           (std::min(x, y) > kHalfOctant * std::max(x, y) ? 8U : 0U);
+  }
+  std::array<SharedUnknown, 16> by_sector_;
 };
 
 struct Correspondences {
@@ -102,9 +129,10 @@ Correspondences find_correspondences(const PairReference& a, const ScanPoints& b
     nearest.look(oriented, range.first, range.last);
     const int j = nearest.found();
     if (j < 0) continue;
-    const double bias = bias_share * static_cast<double>(b.facing[i] - lines.facing[j]);
+    const double facing = static_cast<double>(b.facing[i] - lines.facing[j]);
+    const double bias = bias_share * facing;
     const double weight = static_cast<double>(b.weight[i]) * lines.weight[j] / (1 + bias * bias);
-    found.all.push_back({p_b, {lines.x[j], lines.y[j]}, {lines.nx[j], lines.ny[j]}, weight});
+    found.all.push_back({p_b, {lines.x[j], lines.y[j]}, {lines.nx[j], lines.ny[j]}, facing, weight});
     found.scatter.add(lines.nx[j], lines.ny[j], weight);
   }
   return found;
@@ -119,6 +147,7 @@ PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T
   const PointTransform to_a(T_a_b);
   const double information = 1 / (options.range_sigma * options.range_sigma);
   const double per_square_scale = 1 / (options.robust_scale * options.robust_scale);
+  SurfaceBiases biases;
   PairMatch match;
   match.candidates = found.candidates;
   for (const Correspondence& c : found.all) {
@@ -126,10 +155,13 @@ PairMatch match_pair(const PairReference& a, const ScanPoints& b, const Pose2& T
     const double residual = normal.dot((to_a(c.p_b) - c.q_a).cast<double>());
     const double robust = 1 / (1 + residual * residual * per_square_scale);
     const double weight = c.weight * robust * robust;
-    match.form.add(point_line_row(c.p_b.cast<double>(), c.q_a.cast<double>(), normal), weight * information);
+    const Vector5d row = point_line_row(c.p_b.cast<double>(), c.q_a.cast<double>(), normal);
+    match.form.add(row, weight * information);
+    biases.add(row, normal, c.facing, weight * information);
     match.squares += weight * residual * residual;
     if (robust > 0.2) ++match.correspondences;
   }
+  biases.marginalise(match.form, options.surface_bias);
   return match;
 }
 

@@ -19,6 +19,7 @@ struct MatchPairOptions {
   double gate = 0.15;            ///< metres
   double robust_scale = 0.03;    ///< metres
   double incidence_bias = 0.03;  ///< points seen at different incidence disagree by this much a unit of cosine, metres
+  double surface_bias = 0.05;    ///< the ranges to surfaces that look one way are all off by about as much, metres
   double range_sigma = 0.015;    ///< of one residual: both scans' noise, metres
 };
 

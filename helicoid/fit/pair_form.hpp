@@ -16,12 +16,28 @@ using Matrix5d = Eigen::Matrix<double, 5, 5>;
 /// dv / d(t_x, t_y, phi), 5 x 3.
 [[nodiscard]] Eigen::Matrix<double, 5, 3> pair_vector_jacobian(const Pose2& T_a_b);
 
+/// An unknown that some residuals share beside the pose, each by a factor h of its own: (g . v + h u)^2.
+struct SharedUnknown {
+  Vector5d mixed = Vector5d::Zero();  ///< sum of weight * h * g
+  double square = 0;                  ///< sum of weight * h^2
+
+  void add(const Vector5d& g, double h, double weight) {
+    mixed.noalias() += weight * h * g;
+    square += weight * h * h;
+  }
+};
+
 /// The sum of any number of correspondences between patches a and b: cost 1/2 v^T M v, dimensionless (chi^2 / 2).
 struct PairForm {
   Matrix5d M = Matrix5d::Zero();
 
   /// Adds one residual (g . v)^2 with this weight (1 / variance).
   void add(const Vector5d& g, double weight) { M.noalias() += weight * g * g.transpose(); }
+  /// Takes out what an unknown of this standard deviation explains as well: the cost at its best value for every pose
+  /// (the Schur complement of the joint form). The residuals that share it have been added.
+  void marginalise(const SharedUnknown& shared, double sigma) {
+    M.noalias() -= shared.mixed * shared.mixed.transpose() / (shared.square + 1 / (sigma * sigma));
+  }
   [[nodiscard]] double cost(const Pose2& T_a_b) const;
   friend bool operator==(const PairForm&, const PairForm&) = default;
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <tuple>
 #include <vector>
 
 #include "helicoid/base/random.hpp"
@@ -176,6 +177,37 @@ TEST(PairForm, ItsInformationIsNeverNegative) {
         expand(form_of(random_correspondences(random, count, random_pose(random), 5)), random_pose(random));
     const Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix3d>(e.information).eigenvalues();
     EXPECT_GE(eigenvalues.minCoeff(), -1e-12 * eigenvalues.maxCoeff());
+  }
+}
+
+TEST(PairForm, AnUnknownThatResidualsShareIsTakenOutAtItsBestValueForEveryPose) {
+  Random random(17);
+  constexpr double kSigma = 0.05;
+  PairForm form;
+  SharedUnknown shared;
+  std::vector<std::tuple<Vector5d, double, double>> residuals;
+  for (int k = 0; k < 30; ++k) {
+    const Vector2d normal(std::cos(0.4 * k), std::sin(0.4 * k));
+    const Vector5d g = point_line_row({random.normal(), random.normal()}, {random.normal(), random.normal()}, normal);
+    const double h = random.uniform(-1, 1);
+    const double weight = random.uniform(1, 1e3);
+    form.add(g, weight);
+    shared.add(g, h, weight);
+    residuals.emplace_back(g, h, weight);
+  }
+  form.marginalise(shared, kSigma);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Pose2 T{random.normal(), random.normal(), random.uniform(-3, 3)};
+    const auto cost_with = [&](double u) {
+      double cost = 0.5 * u * u / (kSigma * kSigma);
+      for (const auto& [g, h, weight] : residuals) cost += 0.5 * weight * std::pow(g.dot(pair_vector(T)) + h * u, 2);
+      return cost;
+    };
+    // A parabola: its least value by three points of it.
+    const double a = cost_with(-1), b = cost_with(0), c = cost_with(1);
+    const double curvature = a - 2 * b + c;
+    const double least = b - 0.125 * (c - a) * (c - a) / curvature;
+    EXPECT_NEAR(form.cost(T), least, 1e-8 * b);
   }
 }
 

@@ -18,7 +18,7 @@ struct StatedConfidenceOptions {
   double heading_share = 0.6;
   /// Of a displacement, what the laser's own measure is off by: ranges and the beams' spacing have errors that no
   /// number of scans averages out. One standard deviation, relative.
-  double scale_sigma = 0.003;
+  double scale_sigma = 0.002;
 };
 
 /// The exact covariance of an island's graph (eq. 9), headings by their share of it, the laser's measure, and once for

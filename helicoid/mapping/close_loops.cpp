@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/fit_islands.hpp"
@@ -45,15 +46,28 @@ double farthest_move(const Map& map, std::span<const Pose2> before) {
   return farthest;
 }
 
+/// True if an accepted hypothesis says of its places what the map says already: nothing need move for it now, and what
+/// it adds to what is known counts from the next fit on.
+bool moves_nothing(const Map& map, const Hypothesis& h) {
+  constexpr double kPosition = 0.03;  // metres
+  constexpr double kHeading = 0.01;   // radians
+  const Pose2 off = h.T_a_b.T_a_b.inverse() * map.T_plane_patch(h.a).inverse() * map.T_plane_patch(h.b);
+  return off.distance() < kPosition && std::abs(off.yaw) < kHeading;
+}
+
 }  // namespace
 
 void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
             const MapperOptions& options) {
   std::vector<PatchId> touched;
+  bool moves = false;
   for (const std::size_t entry : entries) {
-    const std::vector<PatchId> tied = tie(progress, closer.ledger()[entry], options);
+    const Hypothesis& h = closer.ledger()[entry];
+    moves = moves || !moves_nothing(progress.map, h);
+    const std::vector<PatchId> tied = tie(progress, h, options);
     touched.insert(touched.end(), tied.begin(), tied.end());
   }
+  if (!moves) touched = induce(progress, touched, closer.along(), options, true);
   spread(progress, closer, std::move(touched), options);
 }
 

@@ -3,10 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "helicoid/align/told_by_one_thing.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 
 namespace helicoid {
+
+namespace {
+
+/// So many degrees of freedom make the prior's Student t a Gaussian: it does not fade.
+constexpr double kBelieved = 1e6;
+/// True if a match lies elsewhere than odometry can well be off by.
+bool contradicts_place(const Alignment& alignment, const PosePrior& prior) {
+  constexpr double kChi2 = 13.82;  // 99.9 % at two degrees of freedom
+  const Matrix2d covariance = prior.information.inverse().topLeftCorner<2, 2>();
+  const Vector2d off = alignment.T_reference_scan.translation() - prior.T_reference_scan.translation();
+  return off.dot(covariance.inverse() * off) > kChi2;
+}
+
+}  // namespace
 
 PosePrior predict(const RobotState& robot, const Motion& motion) {
   const UncertainPose2 T_anchor_now =
@@ -40,6 +55,15 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
     if (const std::optional<Motion> instead = robot.motion.alternative(motion)) {
       const Alignment other = align_scan(robot.reference, points, predict(robot, *instead), align);
       if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
+    }
+  }
+  if (alignment.usable() && contradicts_place(alignment, prior)) {
+    AlignOptions held = align;
+    held.prior_freedom = kBelieved;
+    const Alignment other = align_scan(robot.reference, points, prior, held);
+    if (other.usable() &&
+        is_told_by_one_thing(robot.reference, points, other.T_reference_scan, alignment.T_reference_scan)) {
+      alignment = other;
     }
   }
   if (alignment.status == AlignStatus::too_few_inliers || alignment.inlier_share < options.good_inlier_share) {

@@ -121,10 +121,12 @@ bool is_same_place(const Map& map, const PlaceHypothesis& a, const PlaceHypothes
   return one_sheet && T_a_b.distance() < options.apart && std::abs(T_a_b.yaw) < options.apart_heading;
 }
 
-/// By how much better each explains the scan than the others, beams that carry one piece of information together
-/// (kappa) counting once, and than a place that nobody has seen would.
-void share_confidence(std::vector<PlaceHypothesis>& places, std::size_t points, double kappa) {
-  const double independent = static_cast<double>(points) / kappa;
+/// Whether a dozen beams in a row meet a surface that is known is one question: they look at one thing.
+constexpr double kBeamsOfOneThing = 12;
+
+/// By how much better each explains the scan than the others, and than a place that nobody has seen would.
+void share_confidence(std::vector<PlaceHypothesis>& places, std::size_t points) {
+  const double independent = static_cast<double>(points) / kBeamsOfOneThing;
   const auto fitness = [](const PlaceHypothesis& p) { return p.inlier_share - p.against_share; };
   double sum = std::exp(kAnywhere * independent);
   for (PlaceHypothesis& place : places) sum += place.confidence = std::exp(fitness(place) * independent);
@@ -152,7 +154,7 @@ std::vector<PlaceHypothesis> where_am_i(const Map& map, const Neighbours& neighb
       *same = place;
     }
   }
-  share_confidence(places, points.size(), laser.kappa);
+  share_confidence(places, points.size());
   std::stable_sort(places.begin(), places.end(),
                    [](const PlaceHypothesis& a, const PlaceHypothesis& b) { return a.confidence > b.confidence; });
   return places;

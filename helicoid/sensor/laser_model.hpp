@@ -16,7 +16,7 @@ struct LaserModel {
   double min_range = 0.05;    ///< a range below it is no measurement; metres
   double range_sigma = 0.01;  ///< standard deviation of a range, rounding included; metres
   /// How many beams carry the information of one independent beam: a pair's information is M / kappa (design 5.3).
-  double kappa = 12;
+  double kappa = 6;
   /// Systematic error of a range that changes with how a surface is met (footprint, reflectance): metres between a beam
   /// that meets it head on and one that grazes it.
   double incidence_bias = 0.03;
