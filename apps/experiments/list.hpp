@@ -7,6 +7,7 @@ namespace helicoid {
 
 [[nodiscard]] Experiment buildings_experiment();
 [[nodiscard]] Experiment calibration_experiment();
+[[nodiscard]] Experiment campus_experiment();
 [[nodiscard]] Experiment crispness_experiment();
 [[nodiscard]] Experiment fig6_experiment();
 [[nodiscard]] Experiment laps_experiment();

@@ -50,7 +50,7 @@ TEST(Orders, ARegionIsForbiddenOnItsIslandWhereverAFitMovesIt) {
   EXPECT_TRUE(book.is_forbidden(builder.map, {PatchId{0}, {3, 0}}));
   EXPECT_TRUE(book.is_forbidden(builder.map, {PatchId{1}, {0, 0}}));
   EXPECT_FALSE(book.is_forbidden(builder.map, {PatchId{0}, {1, 0}}));
-  MapEditor(builder.map).set_poses({{12, 3, 1}, builder.map.T_plane_patch(PatchId{1})});
+  MapEditor(builder.map).set_pose(PatchId{0}, {12, 3, 1});
   EXPECT_TRUE(book.is_forbidden(builder.map, {PatchId{0}, {3, 0}}));
   EXPECT_FALSE(book.is_forbidden(builder.map, {PatchId{1}, {0, 0}}));
 }

@@ -28,6 +28,8 @@ class InformationGraph {
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
   /// Adds information about T_a_b, a != b; `T_a_b` is where it was linearised.
   void add(std::uint32_t a, std::uint32_t b, const Pose2& T_a_b, const Matrix3d& information);
+  /// Forgets what was added about the pair; its place among the edges is kept for what is added next.
+  void forget(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] std::span<const Edge> edges(std::uint32_t pose) const { return nodes_[pose].edges; }
   /// In the edges' order.
   [[nodiscard]] std::span<const Way> ways(std::uint32_t pose) const { return nodes_[pose].ways; }
@@ -53,6 +55,8 @@ struct BoundOptions {
   /// among so many poses that lie nearest to the reference.
   double slack = 1;
   std::size_t nearest = 0;
+  /// If there are any, the search ends when all of these are found: what else there is was not asked for.
+  std::span<const std::uint32_t> sought;
 };
 
 /// By what near poses are chosen, metres: one radian of heading counts as much as one.

@@ -226,6 +226,24 @@ TEST(LocalBound, FollowsPosesInDoubtOnlyWhereTheyMayBeAmongTheNearest) {
   EXPECT_GT(doubtful, 0U);
 }
 
+TEST(LocalBound, OfPosesThatAreSoughtIsThatOfALongerSearch) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Graph graph = random_graph(seed);
+    BoundOptions options = without_floor(1e3, 1e3);
+    const auto all = tree_bound(graph.information(), graph.poses, 0, options);
+    const std::uint32_t sought[] = {static_cast<std::uint32_t>(seed % graph.poses.size())};
+    options.sought = sought;
+    const auto some = tree_bound(graph.information(), graph.poses, 0, options);
+    ASSERT_LE(some.size(), all.size());
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      EXPECT_EQ(some[i].pose, all[i].pose);
+      EXPECT_EQ(some[i].relative.covariance, all[i].relative.covariance);
+    }
+    const auto is_sought = [&](const BoundedPose& p) { return p.pose == sought[0]; };
+    EXPECT_EQ(std::any_of(some.begin(), some.end(), is_sought), std::any_of(all.begin(), all.end(), is_sought));
+  }
+}
+
 TEST(LocalBound, CountsTheNoiseFloorOfEitherScanOnce) {
   Graph graph;
   graph.poses = {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}};

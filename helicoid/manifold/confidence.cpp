@@ -1,5 +1,7 @@
 #include "helicoid/manifold/confidence.hpp"
 
+#include <algorithm>
+
 namespace helicoid {
 
 double information_divisor(const Map& map, const Relation& relation) {
@@ -7,13 +9,30 @@ double information_divisor(const Map& map, const Relation& relation) {
   return single ? 1 : map.patch(relation.b).laser.kappa;
 }
 
+namespace {
+
+void add_information(const Map& map, const Relation& r, InformationGraph& graph) {
+  const Pose2 T_a_b = map.T_plane_patch(r.a).inverse() * map.T_plane_patch(r.b);
+  graph.add(r.a.value, r.b.value, T_a_b, expand(r.form, T_a_b).information / information_divisor(map, r));
+}
+
+}  // namespace
+
+void renew_information(const Map& map, std::span<const PatchId> moved, InformationGraph& graph) {
+  std::vector<RelationId> relations;
+  for (const PatchId id : moved) {
+    for (const RelationId r : map.relations_of(id)) relations.push_back(r);
+  }
+  std::sort(relations.begin(), relations.end());
+  relations.erase(std::unique(relations.begin(), relations.end()), relations.end());
+  for (const RelationId id : relations) graph.forget(map.relation(id).a.value, map.relation(id).b.value);
+  for (const RelationId id : relations) add_information(map, map.relation(id), graph);
+}
+
 InformationGraph information_graph(const Map& map) {
   InformationGraph graph;
   for (std::size_t i = 0; i < map.patch_count(); ++i) graph.add_pose();
-  for (const Relation& r : map.relations()) {
-    const Pose2 T_a_b = map.T_plane_patch(r.a).inverse() * map.T_plane_patch(r.b);
-    graph.add(r.a.value, r.b.value, T_a_b, expand(r.form, T_a_b).information / information_divisor(map, r));
-  }
+  for (const Relation& r : map.relations()) add_information(map, r, graph);
   return graph;
 }
 

@@ -14,6 +14,9 @@ namespace helicoid {
 /// The honest information of every related pair, at the map's poses; a pose's number is its patch's id.
 [[nodiscard]] InformationGraph information_graph(const Map& map);
 
+/// Brings it up to where these patches stand now: the information of all their pairs, as information_graph has it.
+void renew_information(const Map& map, std::span<const PatchId> moved, InformationGraph& graph);
+
 /// Where an island's patches lie in its plane, by their place in `island.patches`.
 [[nodiscard]] std::vector<Pose2> island_poses(const Map& map, const Island& island);
 

@@ -28,6 +28,16 @@ std::vector<Island> Map::islands() const {
   return all;
 }
 
+std::vector<PatchId> Map::patches_about(PatchId id, double radius) const {
+  const Vector2d p = T_plane_patch(id).translation();
+  std::vector<PatchId> about;
+  index_.for_each_about(island_of(id), p, radius, [&](PatchId other) {
+    if ((T_plane_patch(other).translation() - p).squaredNorm() <= radius * radius) about.push_back(other);
+  });
+  std::sort(about.begin(), about.end());
+  return about;
+}
+
 RobotId MapEditor::add_robot(std::string name, std::vector<LaserModel> lasers) {
   map_.robots_.push_back({std::move(name), std::move(lasers), {}});
   return make_id<RobotId>(map_.robots_.size() - 1);
@@ -45,6 +55,7 @@ PatchId MapEditor::add_patch(Patch patch, const Pose2& T_plane_patch, IslandId i
   map_.poses_.push_back(T_plane_patch);
   map_.island_of_.push_back(island);
   map_.incident_.emplace_back();
+  map_.index_.place(id, island, T_plane_patch.translation());
   return id;
 }
 
@@ -61,8 +72,13 @@ void MapEditor::merge_islands(IslandId into, IslandId from, const Pose2& T_into_
   for (std::size_t i = 0; i < map_.patches_.size(); ++i) {
     if (map_.island_of_[i] != from) continue;
     map_.island_of_[i] = into;
-    map_.poses_[i] = T_into_from * map_.poses_[i];
+    set_pose(make_id<PatchId>(i), T_into_from * map_.poses_[i]);
   }
+}
+
+void MapEditor::set_pose(PatchId id, const Pose2& T_plane_patch) {
+  map_.poses_[id.index()] = T_plane_patch;
+  map_.index_.place(id, map_.island_of(id), T_plane_patch.translation());
 }
 
 void MapEditor::append_scan(RobotId robot, const TrackedScan& scan) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "helicoid/manifold/patch.hpp"
+#include "helicoid/manifold/plane_index.hpp"
 #include "helicoid/manifold/relation.hpp"
 #include "helicoid/manifold/trajectory.hpp"
 
@@ -39,6 +40,9 @@ class Map {
   [[nodiscard]] std::span<const Pose2> poses() const { return poses_; }
   [[nodiscard]] IslandId island_of(PatchId id) const { return island_of_[id.index()]; }
 
+  /// The patches of its island whose origins lie this near to its own in the plane, itself included; ascending.
+  [[nodiscard]] std::vector<PatchId> patches_about(PatchId id, double radius) const;
+
   [[nodiscard]] std::span<const Relation> relations() const { return relations_; }
   [[nodiscard]] const Relation& relation(RelationId id) const { return relations_[id.index()]; }
   /// The relations in which a patch takes part, in the order in which they were made.
@@ -66,6 +70,7 @@ class Map {
   std::vector<std::shared_ptr<const Patch>> patches_;
   std::vector<Pose2> poses_;
   std::vector<IslandId> island_of_;
+  PlaneIndex index_;
   std::vector<Relation> relations_;
   std::vector<std::vector<RelationId>> incident_;
   std::vector<RobotRecord> robots_;

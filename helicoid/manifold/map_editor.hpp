@@ -17,8 +17,7 @@ class MapEditor {
   RelationId add_relation(const Relation& relation);
   /// All patches of `from` move by T_into_from (their planes') and belong to `into` from then on.
   void merge_islands(IslandId into, IslandId from, const Pose2& T_into_from);
-  void set_pose(PatchId id, const Pose2& T_plane_patch) { map_.poses_[id.index()] = T_plane_patch; }
-  void set_poses(std::vector<Pose2> poses) { map_.poses_ = std::move(poses); }
+  void set_pose(PatchId id, const Pose2& T_plane_patch);
   void append_scan(RobotId robot, const TrackedScan& scan);
 
  private:

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "helicoid/manifold/confidence.hpp"
-#include "helicoid/mapping/fit_islands.hpp"
+#include "helicoid/mapping/fit_around.hpp"
 #include "helicoid/mapping/induce.hpp"
 
 namespace helicoid {
@@ -29,12 +29,12 @@ std::vector<PatchId> tie(MapInProgress& progress, const Hypothesis& h, const Map
 
 /// True if b is neither tied to nor confident of some older patch that lies about it.
 bool has_unknown_ground(const Map& map, PatchId b, const LocalMap& known, std::span<const double> along) {
-  std::vector<bool> is_known(map.patch_count(), false);
-  for (const LocalPatch& p : known) is_known[p.patch.index()] = true;
-  for (std::size_t i = 0; i < b.index(); ++i) {
-    if (!is_known[i] && is_untied_ground(map, b, make_id<PatchId>(i), along)) return true;
-  }
-  return false;
+  const auto is_known = [&](PatchId a) {
+    return std::any_of(known.begin(), known.end(), [a](const LocalPatch& p) { return p.patch == a; });
+  };
+  const std::vector<PatchId> about = older_patches_about(map, b);
+  return std::any_of(about.begin(), about.end(),
+                     [&](PatchId a) { return !is_known(a) && is_untied_ground(map, b, a, along); });
 }
 
 /// How far a patch moved at most, metres.
@@ -75,9 +75,9 @@ void spread(MapInProgress& progress, const LoopCloser& closer, std::vector<Patch
             const MapperOptions& options) {
   constexpr int kRounds = 10;
   for (int round = 0; round < kRounds && !touched.empty(); ++round) {
-    fit_islands(progress.map, progress.editor);
+    const std::vector<PatchId> moved = fit_around(progress.map, progress.editor, touched);
     // Later rounds move related patches by next to nothing: what their relations say of them stays.
-    if (round == 0) progress.graph = information_graph(progress.map);
+    if (round == 0) renew_information(progress.map, moved, progress.graph);
     touched = induce(progress, touched, closer.along(), options, round == 0);
   }
 }

@@ -143,10 +143,8 @@ class Zipper {
 }  // namespace
 
 bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along) {
-  for (std::size_t i = 0; i < b.index(); ++i) {
-    if (is_untied_ground(map, b, make_id<PatchId>(i), along)) return true;
-  }
-  return false;
+  const std::vector<PatchId> about = older_patches_about(map, b);
+  return std::any_of(about.begin(), about.end(), [&](PatchId a) { return is_untied_ground(map, b, a, along); });
 }
 
 std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> begin, std::span<const double> along,

@@ -12,13 +12,24 @@ namespace helicoid {
 
 namespace {
 
+/// A candidate may lie this much beyond its window, metres.
+constexpr double kMargin = 1;
+
+/// What the same robot kept just before, nothing if that was its first: to its last one each patch is tied by odometry.
+PatchId kept_before(const Map& map, PatchId id) {
+  for (const RelationId r : map.relations_of(id)) {
+    const Relation& relation = map.relation(r);
+    if (relation.kind == RelationKind::odometry && relation.b == id) return relation.a;
+  }
+  return {};
+}
+
 /// b and the patches that its robot kept on the last few metres before it.
 std::vector<PatchId> patches_before(const Map& map, PatchId b, const LookAlikeOptions& options) {
   std::vector<PatchId> patches{b};
   double way = 0;
-  for (std::size_t i = b.index(); i-- > 0 && patches.size() < options.place_patches;) {
-    const PatchId id = make_id<PatchId>(i);
-    if (map.patch(id).robot != map.patch(b).robot) continue;
+  for (PatchId id = kept_before(map, b); id.valid() && patches.size() < options.place_patches;
+       id = kept_before(map, id)) {
     way += (map.T_plane_patch(id).inverse() * map.T_plane_patch(patches.back())).distance();
     if (way > options.place_reach) break;
     patches.push_back(id);
@@ -49,6 +60,21 @@ PlaceBefore see_place(const Map& map, PatchId b, const LookAlikeOptions& options
   return place;
 }
 
+double farthest_candidate(const LookAlikeOptions& options) {
+  return std::max(options.widest + kMargin, options.narrow_reach);
+}
+
+std::vector<PatchId> possible_candidates(const Map& map, PatchId b, const LocalMap& known,
+                                         const LookAlikeOptions& options) {
+  std::vector<PatchId> is_known = patches_before(map, b, options);
+  for (const LocalPatch& p : known) is_known.push_back(p.patch);
+  std::sort(is_known.begin(), is_known.end());
+  std::vector<PatchId> possible = map.patches_about(b, farthest_candidate(options));
+  std::erase_if(possible,
+                [&](PatchId id) { return b < id || std::binary_search(is_known.begin(), is_known.end(), id); });
+  return possible;
+}
+
 std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& graph, PatchId b,
                                        std::span<const BoundedPose> bounds, const LocalMap& known,
                                        const LookAlikeOptions& options) {
@@ -66,7 +92,8 @@ std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& g
     const double window = window_of(pose.relative, options);
     // What is known well may show the same walls from some way off.
     const bool is_narrow = confidence_interval(pose.relative.covariance).position <= options.narrow;
-    if (distance > std::max(std::min(window, options.widest) + 1.0, is_narrow ? options.narrow_reach : 0.0)) continue;
+    if (distance > std::max(std::min(window, options.widest) + kMargin, is_narrow ? options.narrow_reach : 0.0))
+      continue;
     near.push_back({distance, &pose});
   }
   std::sort(near.begin(), near.end(), [](const Near& x, const Near& y) {

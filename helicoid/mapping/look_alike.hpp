@@ -49,10 +49,17 @@ struct Candidate {
 };
 
 /// The patches that may lie where `b` does without the map being sure: nearest first, one a place. `known` are those
-/// that it is sure about. `bounds`: everything relative to b.
+/// that it is sure about. `bounds`: all possible candidates relative to b, others may be there.
 [[nodiscard]] std::vector<Candidate> find_candidates(const Map& map, const InformationGraph& graph, PatchId b,
                                                      std::span<const BoundedPose> bounds, const LocalMap& known,
                                                      const LookAlikeOptions& options);
+
+/// No candidate lies farther off in the plane, metres.
+[[nodiscard]] double farthest_candidate(const LookAlikeOptions& options);
+
+/// The patches among which candidates are found: older ones that lie near enough and are not known.
+[[nodiscard]] std::vector<PatchId> possible_candidates(const Map& map, PatchId b, const LocalMap& known,
+                                                       const LookAlikeOptions& options);
 
 /// Aligns what was seen about a place with what was seen about a, over the whole window. Nothing if they do not fit.
 [[nodiscard]] std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph& graph,

@@ -14,6 +14,12 @@ namespace helicoid {
 
 namespace {
 
+/// Entries are compared if their first places are known this well to one another (eq. 10), metres and radians,
+constexpr double kKnown = 0.6;
+constexpr double kKnownHeading = 0.25;
+/// and lie no farther apart than this, metres.
+constexpr double kPassage = 30;
+
 constexpr const char* kWaits = "waits for others that agree";
 
 const BoundedPose* find(std::span<const BoundedPose> poses, PatchId id) {
@@ -26,6 +32,10 @@ double disagreement(const UncertainPose2& first, const UncertainPose2& second) {
   const Vector3d off(first.T_a_b.x - second.T_a_b.x, first.T_a_b.y - second.T_a_b.y,
                      wrap_angle(first.T_a_b.yaw - second.T_a_b.yaw));
   return off.dot((first.covariance + second.covariance).ldlt().solve(off));
+}
+
+BoundOptions passage_about(const Map& map, PatchId id) {
+  return bound_options(map.patch(id), kKnown, kKnownHeading, kPassage);
 }
 
 }  // namespace
@@ -75,8 +85,12 @@ std::vector<std::size_t> LoopCloser::observe_again(const Map& map, const Informa
 std::vector<std::size_t> LoopCloser::look_about(const Map& map, const InformationGraph& graph, PatchId b,
                                                 const LocalMap& known, const LookAlikeOptions& options) {
   searched_at_[map.patch(b).robot.index()] = along_[b.index()];
+  const std::vector<PatchId> possible = possible_candidates(map, b, known, options);
+  if (possible.empty()) return {};
+  const std::vector<std::uint32_t> sought = poses_in_question(map, b, possible, options);
   BoundOptions everything = bound_options(map.patch(b), 1e3, 1e3, 1e9);
   everything.most = map.patch_count();
+  everything.sought = sought;
   const std::vector<BoundedPose> about_b = tree_bound(graph, map.poses(), b.value, everything);
   const std::vector<Candidate> candidates = find_candidates(map, graph, b, about_b, known, options);
   if (candidates.empty()) return {};
@@ -98,11 +112,28 @@ std::vector<std::size_t> LoopCloser::look_about(const Map& map, const Informatio
   return accepted;
 }
 
+std::vector<std::uint32_t> LoopCloser::poses_in_question(const Map& map, PatchId b, std::span<const PatchId> possible,
+                                                         const LookAlikeOptions& options) const {
+  std::vector<std::uint32_t> poses;
+  poses.reserve(possible.size());
+  for (const PatchId a : possible) poses.push_back(a.value);
+  const Vector2d p_b = map.T_plane_patch(b).translation();
+  const double reach = farthest_candidate(options) + kPassage;
+  const std::size_t first = ledger_.size() > options_.memory ? ledger_.size() - options_.memory : 0;
+  for (std::size_t i = 0; i < ledger_.size(); ++i) {
+    const Hypothesis& h = ledger_[i];
+    if (i < first && !h.is_withheld()) continue;
+    const bool is_near = (map.T_plane_patch(h.a).translation() - p_b).norm() <= reach;
+    if (is_near && map.island_of(h.b) == map.island_of(b)) poses.push_back(h.b.value);
+  }
+  return poses;
+}
+
 void LoopCloser::compare_with_one_another(const Map& map, const InformationGraph& graph,
                                           std::vector<Hypothesis>& found) const {
   for (std::size_t i = 0; i < found.size(); ++i) {
     const std::vector<BoundedPose> about_a =
-        tree_bound(graph, map.poses(), found[i].a.value, bound_options(map.patch(found[i].a), 0.6, 0.25, 30));
+        tree_bound(graph, map.poses(), found[i].a.value, passage_about(map, found[i].a));
     for (std::size_t k = 0; k < i; ++k) {
       // Where the map itself does not know how the two places lie, both may be right.
       const BoundedPose* other = find(about_a, found[k].a);
@@ -190,8 +221,7 @@ std::vector<std::size_t> LoopCloser::consider_between(const Map& map, const Info
   follow_ways(map);
   found.reason = may_join ? kWaits : "a proposal: islands are joined by sightings";
   const PatchId b = found.b;
-  const std::vector<BoundedPose> about_b =
-      tree_bound(graph, map.poses(), b.value, bound_options(map.patch(b), 0.6, 0.25, 30));
+  const std::vector<BoundedPose> about_b = tree_bound(graph, map.poses(), b.value, passage_about(map, b));
   constexpr Quorum kNever{std::numeric_limits<std::size_t>::max(), HUGE_VAL};
   return enter(map, graph, about_b, std::move(found),
                may_join ? Quorum{options_.least_agreeing_islands, options_.least_way_islands} : kNever);
@@ -200,16 +230,14 @@ std::vector<std::size_t> LoopCloser::consider_between(const Map& map, const Info
 std::vector<std::size_t> LoopCloser::consider_within(const Map& map, const InformationGraph& graph, Hypothesis found) {
   follow_ways(map);
   found.reason = kWaits;
-  const std::vector<BoundedPose> about_b =
-      tree_bound(graph, map.poses(), found.b.value, bound_options(map.patch(found.b), 0.6, 0.25, 30));
+  const std::vector<BoundedPose> about_b = tree_bound(graph, map.poses(), found.b.value, passage_about(map, found.b));
   return enter(map, graph, about_b, std::move(found), {options_.least_agreeing, options_.least_way});
 }
 
 void LoopCloser::compare_with_earlier(const Map& map, const InformationGraph& graph,
                                       std::span<const BoundedPose> about_b, std::size_t entry) {
   Hypothesis& h = ledger_[entry];
-  const std::vector<BoundedPose> about_a =
-      tree_bound(graph, map.poses(), h.a.value, bound_options(map.patch(h.a), 0.6, 0.25, 30));
+  const std::vector<BoundedPose> about_a = tree_bound(graph, map.poses(), h.a.value, passage_about(map, h.a));
   const std::size_t first = entry > options_.memory ? entry - options_.memory : 0;
   for (std::size_t i = 0; i < entry; ++i) {
     const Hypothesis& other = ledger_[i];

@@ -64,6 +64,10 @@ class LoopCloser {
  private:
   std::vector<std::size_t> look_about(const Map& map, const InformationGraph& graph, PatchId b, const LocalMap& known,
                                       const LookAlikeOptions& options);
+  /// Of which it is asked how they lie to b: its possible candidates, and what earlier entries compared with those.
+  [[nodiscard]] std::vector<std::uint32_t> poses_in_question(const Map& map, PatchId b,
+                                                             std::span<const PatchId> possible,
+                                                             const LookAlikeOptions& options) const;
   /// How many entries of different patches must agree, and over what way of the robot, metres.
   struct Quorum {
     std::size_t agreeing;

@@ -52,6 +52,12 @@ bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const 
          !is_tied_to_stretch(map, patch, q, along);
 }
 
+std::vector<PatchId> older_patches_about(const Map& map, PatchId patch) {
+  std::vector<PatchId> about = map.patches_about(patch, kReach);
+  about.erase(std::lower_bound(about.begin(), about.end(), patch), about.end());
+  return about;
+}
+
 RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views, const PosePrior& prior,
                        RelationKind kind) {
   RelateOptions options;

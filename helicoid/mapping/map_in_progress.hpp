@@ -31,6 +31,9 @@ struct MapInProgress {
 /// True if q lies about the patch, on the same island, and its stretch of way is not yet related to.
 [[nodiscard]] bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const double> along);
 
+/// The older patches about which is_untied_ground may hold: those of the island that lie near enough; ascending.
+[[nodiscard]] std::vector<PatchId> older_patches_about(const Map& map, PatchId patch);
+
 /// Relates a patch to the views, all of them older, and adds the relations.
 RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views, const PosePrior& prior,
                        RelationKind kind);

@@ -203,6 +203,9 @@ void Mapper::State::add_relation(const Relation& relation) {
 }
 
 Mapper::Mapper(const MapperOptions& options) : state_(std::make_unique<State>(options)) {}
+Mapper::Mapper(const MapperOptions& options, Map map) : Mapper(options) {
+  state_->go_on_from(std::move(map));
+}
 Mapper::~Mapper() = default;
 Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;

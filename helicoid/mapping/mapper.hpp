@@ -57,6 +57,9 @@ struct MapperTimes {
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options = {});
+  /// Goes on from a map: each of its robots stands where its last scan was taken, and has not moved since. What was
+  /// open in its ledger is not known any more.
+  Mapper(const MapperOptions& options, Map map);
   ~Mapper();
   Mapper(Mapper&&) noexcept;
   Mapper& operator=(Mapper&&) noexcept;

@@ -27,6 +27,7 @@ struct Mapper::State {
   std::size_t sightings_seen = 0;  ///< of those that were placed, by tie_on_sightings
   bool sighting_acted_on = false;
 
+  void go_on_from(Map before);
   Step step(const Event& event, const Scan& scan);
   Motion advance(RobotState& robot, const Event& event, const Scan& scan);
   void follow(RobotState& robot, const Motion& motion, const PosePrior& prior, const Alignment& alignment,

@@ -1,5 +1,7 @@
 #include "helicoid/mapping/tie_neighbours.hpp"
 
+#include <algorithm>
+
 #include "helicoid/align/align_scan.hpp"
 #include "helicoid/fit/confident_pairs.hpp"
 #include "helicoid/manifold/confidence.hpp"
@@ -16,11 +18,13 @@ constexpr std::size_t kViews = 4;
 /// younger one to the older one's stretch of way.
 std::vector<PosePair> untied_pairs(const Map& map, const Island& island, std::span<const double> along) {
   std::vector<PosePair> pairs;
-  for (std::uint32_t a = 0; a < island.patches.size(); ++a) {
-    for (std::uint32_t b = a + 1; b < island.patches.size(); ++b) {
-      if (is_untied_ground(map, island.patches[b], island.patches[a], along)) pairs.push_back({a, b});
+  for (std::uint32_t b = 0; b < island.patches.size(); ++b) {
+    for (const PatchId a : older_patches_about(map, island.patches[b])) {
+      if (is_untied_ground(map, island.patches[b], a, along)) pairs.push_back({island.place_of(a), b});
     }
   }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const PosePair& p, const PosePair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
   return pairs;
 }
 

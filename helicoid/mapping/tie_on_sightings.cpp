@@ -21,10 +21,13 @@ std::optional<UncertainPose2> vague_pose(const MapInProgress& progress, PatchId 
   BoundOptions confident =
       bound_options(patch, options.reference_position, options.reference_heading, options.local_radius);
   confident.most = progress.map.patch_count();
+  const std::uint32_t sought[] = {b.value};
+  confident.sought = sought;
   const std::vector<BoundedPose> known = tree_bound(progress.graph, progress.map.poses(), a.value, confident);
   if (std::any_of(known.begin(), known.end(), is_b)) return std::nullopt;
   BoundOptions everything = bound_options(patch, 1e3, 1e3, 1e9);
   everything.most = progress.map.patch_count();
+  everything.sought = sought;
   const std::vector<BoundedPose> all = tree_bound(progress.graph, progress.map.poses(), a.value, everything);
   const auto found = std::find_if(all.begin(), all.end(), is_b);
   if (found == all.end()) return std::nullopt;
