@@ -27,14 +27,14 @@ std::vector<PatchId> tie(MapInProgress& progress, const Hypothesis& h, const Map
   return related;
 }
 
-/// True if b is neither tied to nor confident of some older patch that lies about it.
-bool has_unknown_ground(const Map& map, PatchId b, const LocalMap& known, std::span<const double> along) {
+/// True if b is neither tied to nor confident of some older patch within reach of it.
+bool has_unknown_ground(const Map& map, PatchId b, const LocalMap& known, std::span<const double> along, double reach) {
   const auto is_known = [&](PatchId a) {
     return std::any_of(known.begin(), known.end(), [a](const LocalPatch& p) { return p.patch == a; });
   };
-  const std::vector<PatchId> about = older_patches_about(map, b);
+  const std::vector<PatchId> about = older_patches_about(map, b, reach);
   return std::any_of(about.begin(), about.end(),
-                     [&](PatchId a) { return !is_known(a) && is_untied_ground(map, b, a, along); });
+                     [&](PatchId a) { return !is_known(a) && is_untied_ground(map, b, a, along, reach); });
 }
 
 /// How far a patch moved at most, metres.
@@ -96,9 +96,9 @@ void close_loops_again(MapInProgress& progress, LoopCloser& closer, const Mapper
     std::vector<std::size_t> accepted;
     for (std::size_t i = 0; i < progress.map.patch_count(); ++i) {
       const PatchId b = make_id<PatchId>(i);
-      if (!closer.is_due_again(progress.map, b) || !has_untied_ground(progress.map, b, closer.along())) continue;
+      if (!closer.is_due_again(progress.map, b)) continue;
       const LocalMap known = find_local_map(progress.map, progress.graph, b, options);
-      if (!has_unknown_ground(progress.map, b, known, closer.along())) continue;
+      if (!has_unknown_ground(progress.map, b, known, closer.along(), closer.reach_again())) continue;
       const std::vector<std::size_t> now = closer.observe_again(progress.map, progress.graph, b, known);
       accepted.insert(accepted.end(), now.begin(), now.end());
     }

@@ -79,6 +79,7 @@ std::vector<std::size_t> LoopCloser::observe_again(const Map& map, const Informa
                                                    const LocalMap& known) {
   LookAlikeOptions nearest = options_.look_alike;
   nearest.candidates = options_.candidates_again;
+  nearest.narrow_reach = options_.reach_again;
   return look_about(map, graph, b, known, nearest);
 }
 

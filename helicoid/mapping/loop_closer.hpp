@@ -10,6 +10,7 @@ struct LoopCloserOptions {
   double search_spacing = 2;         ///< a robot looks for look-alikes this often along its way, metres
   double spacing_again = 8;          ///< the same when all of its way is looked at once more
   std::size_t candidates_again = 1;  ///< places that a patch is then compared with
+  double reach_again = 8;            ///< how far off these may be, metres: two robots may each have come that near
   double consistent = 11.345;        ///< chi^2 of a cycle of two hypotheses: 99 % at three degrees of freedom
   std::size_t memory = 60;           ///< entries back that may support a new one
   std::size_t least_agreeing = 3;    ///< hypotheses of different patches that must agree
@@ -44,6 +45,7 @@ class LoopCloser {
   void start_again(const Map& map);
   /// True if the robot has gone on far enough since the last search for one more at this patch.
   [[nodiscard]] bool is_due_again(const Map& map, PatchId b) const;
+  [[nodiscard]] double reach_again() const { return options_.reach_again; }
   /// The same search for one that is due again.
   std::vector<std::size_t> observe_again(const Map& map, const InformationGraph& graph, PatchId b,
                                          const LocalMap& known);

@@ -12,8 +12,6 @@ namespace {
 /// Along a robot's way; patches nearer than this are one stretch, metres.
 constexpr double kStretch = 4;
 constexpr int kMinCorrespondences = 40;
-/// Patches that are to be related lie this near, metres.
-constexpr double kReach = 3;
 
 /// True if some relation that is not odometry's leads to a patch of that kind.
 template <typename IsOfKind>
@@ -46,14 +44,14 @@ bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<cons
   return near(patch) || is_matched_to_any(map, patch, near);
 }
 
-bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const double> along) {
+bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const double> along, double reach) {
   const Vector2d apart = map.T_plane_patch(q).translation() - map.T_plane_patch(patch).translation();
-  return apart.squaredNorm() <= kReach * kReach && map.island_of(q) == map.island_of(patch) &&
+  return apart.squaredNorm() <= reach * reach && map.island_of(q) == map.island_of(patch) &&
          !is_tied_to_stretch(map, patch, q, along);
 }
 
-std::vector<PatchId> older_patches_about(const Map& map, PatchId patch) {
-  std::vector<PatchId> about = map.patches_about(patch, kReach);
+std::vector<PatchId> older_patches_about(const Map& map, PatchId patch, double reach) {
+  std::vector<PatchId> about = map.patches_about(patch, reach);
   about.erase(std::lower_bound(about.begin(), about.end(), patch), about.end());
   return about;
 }

@@ -28,11 +28,15 @@ struct MapInProgress {
 /// to.
 [[nodiscard]] bool is_tied_to_stretch(const Map& map, PatchId patch, PatchId q, std::span<const double> along);
 
-/// True if q lies about the patch, on the same island, and its stretch of way is not yet related to.
-[[nodiscard]] bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const double> along);
+/// Patches this near to one another show the same place, metres.
+inline constexpr double kSamePlace = 3;
+
+/// True if q lies within `reach` of the patch, on the same island, and its stretch of way is not yet related to.
+[[nodiscard]] bool is_untied_ground(const Map& map, PatchId patch, PatchId q, std::span<const double> along,
+                                    double reach = kSamePlace);
 
 /// The older patches about which is_untied_ground may hold: those of the island that lie near enough; ascending.
-[[nodiscard]] std::vector<PatchId> older_patches_about(const Map& map, PatchId patch);
+[[nodiscard]] std::vector<PatchId> older_patches_about(const Map& map, PatchId patch, double reach = kSamePlace);
 
 /// Relates a patch to the views, all of them older, and adds the relations.
 RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const LocalPatch> views, const PosePrior& prior,
