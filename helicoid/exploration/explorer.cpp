@@ -41,7 +41,9 @@ FrontierLeft left_out(const Frontier& frontier, std::string reason) {
 }
 
 std::string why_closed(const Frontier& frontier) {
-  if (frontier.status == FrontierStatus::too_narrow) return fmt::format("opening of {:.2f} m", frontier.opening);
+  if (frontier.status == FrontierStatus::open) return "looked at or tried in vain";
+  if (frontier.opening > 0 || frontier.status == FrontierStatus::too_narrow)
+    return fmt::format("opening of {:.2f} m", frontier.opening);
   return "no way there";
 }
 
@@ -110,13 +112,13 @@ TeamPlan Explorer::plan(double now, const Map& map, const Neighbours& neighbours
 
 void Explorer::sort_out_frontiers(Situation& s, const Neighbours& neighbours, TeamPlan& plan) {
   for (Frontier& frontier : finder_.find(s.map, neighbours, s.travel)) {
-    if (frontier.status != FrontierStatus::open) {
+    if (!is_to_be_looked_at(frontier)) {
       plan.frontiers_left.push_back(left_out(frontier, why_closed(frontier)));
     } else if (orders_.is_forbidden(s.map, frontier.goal) || orders_.is_forbidden(s.map, frontier.middle)) {
       plan.frontiers_left.push_back(left_out(frontier, "forbidden"));
     } else if (looks_.is_let_be(s.now, s.map, frontier)) {
       s.waits = s.waits || looks_.is_resting(s.now, s.map, frontier);
-      plan.frontiers_left.push_back(left_out(frontier, "looked at or tried in vain"));
+      plan.frontiers_left.push_back(left_out(frontier, why_closed(frontier)));
     } else {
       s.frontiers.push_back(std::move(frontier));
     }

@@ -140,6 +140,30 @@ class GoalSearch {
   std::vector<GroundCell> tried_;
 };
 
+/// The nearest place to a point (plane), as the crow flies, that a robot can stand on and go to.
+std::optional<ManifoldPoint> nearest_stand(const Map& map, const GroundWindow& window, std::span<const PatchId> patches,
+                                           const Vector2d& p_plane, std::span<const Travel> travel,
+                                           const FrontierOptions& options) {
+  const GroundCell middle = ground_cell(p_plane);
+  const double room = (options.robot_radius + options.margin) / kGroundCell;
+  const int step = static_cast<int>(kNextTry / kGroundCell);
+  const int reach = static_cast<int>(options.near / kGroundCell);
+  std::optional<ManifoldPoint> best;
+  double least = options.near;
+  for (int row = -reach; row <= reach; row += step) {
+    for (int column = -reach; column <= reach; column += step) {
+      const double away = kGroundCell * std::hypot(row, column);
+      const GroundCell cell{middle.row + row, middle.column + column};
+      if (away >= least || !window.holds(cell) || !window.is_free(cell) || !window.has_room(cell, room)) continue;
+      const std::optional<ManifoldPoint> point = on_patch(map, patches, centre_of(cell));
+      if (!point || !is_reachable(*point, travel)) continue;
+      best = point;
+      least = away;
+    }
+  }
+  return best;
+}
+
 /// The edge as seen from the patch that holds most of it.
 Frontier describe(const Map& map, const EdgeCluster& cluster) {
   Frontier frontier;
@@ -167,6 +191,7 @@ double heading_to(const EdgeCluster& cluster, const Vector2d& goal_plane) {
 const char* name_of(FrontierStatus status) {
   switch (status) {
     case FrontierStatus::open: return "open";
+    case FrontierStatus::from_near: return "from near";
     case FrontierStatus::too_narrow: return "too narrow";
     case FrontierStatus::unreachable: break;
   }
@@ -206,6 +231,12 @@ Frontier FrontierFinder::judge(const Map& map, const EdgeCluster& cluster, std::
   frontier.opening = widest_opening(window, edge, stood);
   const bool narrow = frontier.opening < 2 * options_.robot_radius;
   frontier.status = narrow ? FrontierStatus::too_narrow : FrontierStatus::unreachable;
+  if (frontier.gain_m2 < options_.least_gain_near) return frontier;
+  if (const auto near = nearest_stand(map, window, patches, cluster.middle_plane, travel, options_)) {
+    frontier.goal = *near;
+    frontier.heading_patch = wrap_angle(heading_to(cluster, project(map, *near)) - map.T_plane_patch(near->patch).yaw);
+    frontier.status = FrontierStatus::from_near;
+  }
   return frontier;
 }
 
@@ -235,7 +266,7 @@ std::vector<Frontier> FrontierFinder::find(const Map& map, const Neighbours& nei
 bool FrontierFinder::holds(const Judged& before, std::uint64_t patches, std::span<const Travel> travel) const {
   if (before.patches != patches && before.age >= options_.renewal) return false;
   // What could not be reached then may be now, by a way that leads elsewhere.
-  return (before.frontier.status == FrontierStatus::open) == is_reachable(before.frontier.goal, travel);
+  return is_to_be_looked_at(before.frontier) == is_reachable(before.frontier.goal, travel);
 }
 
 std::vector<Frontier> find_frontiers(const Map& map, const Neighbours& neighbours, std::span<const Travel> travel,

@@ -22,6 +22,7 @@ struct SeenSquare {
 
 enum class FrontierStatus : std::uint8_t {
   open,         ///< a robot can go and look
+  from_near,    ///< a robot can get near it, but not by the floor that it bounds, as far as that has been seen
   too_narrow,   ///< what lies between it and where robots can be is narrower than a robot
   unreachable,  ///< no robot has a way
 };
@@ -40,6 +41,11 @@ struct Frontier {
   std::vector<SeenSquare> seen;      ///< the same, ascending by row and column
 };
 
+/// True if a robot can go where it sees it from.
+[[nodiscard]] inline bool is_to_be_looked_at(const Frontier& frontier) {
+  return frontier.status == FrontierStatus::open || frontier.status == FrontierStatus::from_near;
+}
+
 /// Lengths in metres.
 struct FrontierOptions {
   OpenEdgeOptions edges;
@@ -49,6 +55,10 @@ struct FrontierOptions {
   double look_range = 6.0;                  ///< gain is counted this far from the goal
   double field_of_view = std::numbers::pi;  ///< of the robot's laser, radians
   double goal_reach = 4.0;                  ///< a goal lies within this way of the edge
+  /// An edge that no way leads to, and behind which this much may lie, is looked at from floor this near to it: a door
+  /// that was seen from far along its wall only looks closed.
+  double near = 2.5;
+  double least_gain_near = 1.0;  ///< m2
   /// New patches about an edge that they do not touch are taken into account after so many calls.
   int renewal = 4;
   double least_gain = 0.06;  ///< less than this is not worth a look, m2
