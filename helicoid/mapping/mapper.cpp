@@ -74,8 +74,8 @@ bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignme
   if (1 - alignment.inlier_share > more * (1 - options.new_surface_share)) return true;
   if (!has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) return false;
   robot.T_anchor_coverage_view = T_anchor_robot;
-  return uncovered_share(map, robot.local, T_anchor_robot, scan, robot.extractors[scan.laser]) >
-         more * options.new_ground_share;
+  const UncoveredShare share = uncovered_share(map, robot.local, T_anchor_robot, scan, robot.extractors[scan.laser]);
+  return share.of_all > more * options.new_ground_share || share.of_near > options.new_ground_share;
 }
 
 void Mapper::State::take(const Event& event, const Sighting& sighting) {

@@ -11,8 +11,12 @@ namespace helicoid {
                                    double share = 1);
 
 /// The second: the share of the scan's free space that no patch of the local map covers, 0..1, by sampling.
-[[nodiscard]] double uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot,
-                                     const Scan& scan, const ScanPointExtractor& extractor);
+struct UncoveredShare {
+  double of_all = 0;
+  double of_near = 0;  ///< of what lies within a few metres
+};
+[[nodiscard]] UncoveredShare uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot,
+                                             const Scan& scan, const ScanPointExtractor& extractor);
 
 /// True if a pose has moved by more than this distance (metres) or angle (radians).
 [[nodiscard]] bool has_moved(const Pose2& from, const Pose2& to, double distance, double angle);
