@@ -13,7 +13,6 @@
 #include "helicoid/mapping/relate.hpp"
 #include "helicoid/mapping/sighting_fit.hpp"
 #include "helicoid/mapping/tie_neighbours.hpp"
-#include "helicoid/mapping/tie_on_sightings.hpp"
 
 namespace helicoid {
 
@@ -113,8 +112,7 @@ void Mapper::State::join_what_is_determined(bool last) {
   bool changed = options.closures && reported.take_placed(progress, closer, last, options);
   if (sightings.place_waiting(map, graph, closer, options.decisions, last) || last) {
     const bool joined = join_on_sightings(progress, closer, sightings, last, options);
-    const bool tied = options.closures && tie_on_sightings(progress, closer, sightings, sightings_seen, options);
-    sightings_seen = sightings.placed().size();
+    const bool tied = options.closures && sighting_ties.tie(progress, closer, sightings, last, options);
     sighting_acted_on = sighting_acted_on || joined;
     changed = changed || joined || tied;
   }

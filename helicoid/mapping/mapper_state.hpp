@@ -7,6 +7,7 @@
 #include "helicoid/mapping/reported_places.hpp"
 #include "helicoid/mapping/robot_state.hpp"
 #include "helicoid/mapping/sighting_log.hpp"
+#include "helicoid/mapping/tie_on_sightings.hpp"
 
 namespace helicoid {
 
@@ -19,12 +20,12 @@ struct Mapper::State {
   InformationGraph graph;
   LoopCloser closer;
   SightingLog sightings;
+  SightingTies sighting_ties;
   ReportedPlaces reported;
   std::vector<RobotState> robots;
   MapperCounts counts;
   MapperTimes times;
   std::size_t patches_at_last_fit = 0;
-  std::size_t sightings_seen = 0;  ///< of those that were placed, by tie_on_sightings
   bool sighting_acted_on = false;
 
   Step step(const Event& event, const Scan& scan);
