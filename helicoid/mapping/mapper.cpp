@@ -5,7 +5,6 @@
 
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/fit_islands.hpp"
-#include "helicoid/mapping/island_evidence.hpp"
 #include "helicoid/mapping/join_on_sightings.hpp"
 #include "helicoid/mapping/judge_sightings.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
@@ -224,6 +223,15 @@ Step Mapper::process(const Event& event) {
   if (const auto* sighting = std::get_if<Sighting>(&event.body)) state_->take(event, *sighting);
   if (const auto* alike = std::get_if<Lookalike>(&event.body)) state_->take(event, *alike);
   return {};
+}
+
+void Mapper::propose() {
+  State& s = *state_;
+  if (!s.options.closures || !s.options.look_alikes) return;
+  const double began = thread_seconds();
+  MapInProgress progress{s.map, s.editor, s.graph};
+  s.proposals.look(progress, s.closer, s.options);
+  s.times.close_s += thread_seconds() - began;
 }
 
 void Mapper::decide(const Decision& decision) {

@@ -3,6 +3,7 @@
 
 #include "helicoid/align/align_scan.hpp"
 #include "helicoid/mapping/close_loops.hpp"
+#include "helicoid/mapping/island_evidence.hpp"
 #include "helicoid/mapping/mapper.hpp"
 #include "helicoid/mapping/reported_places.hpp"
 #include "helicoid/mapping/robot_state.hpp"
@@ -22,6 +23,7 @@ struct Mapper::State {
   SightingLog sightings;
   SightingTies sighting_ties;
   ReportedPlaces reported;
+  IslandProposals proposals;
   std::vector<RobotState> robots;
   MapperCounts counts;
   MapperTimes times;
