@@ -42,6 +42,16 @@ class Timed {
   double began_;
 };
 
+Decision decision_about(const Map& map, const Hypothesis& h, HypothesisState state, const std::string& reason) {
+  Decision decision;
+  decision.state = state;
+  decision.source = h.source;
+  decision.a = first_place(map, h);
+  decision.b = second_place(map, h);
+  decision.reason = reason;
+  return decision;
+}
+
 }  // namespace
 
 TeamPilot::TeamPilot(const PilotOptions& options, std::span<const std::string> names, const LaserModel& laser,
@@ -97,6 +107,7 @@ void TeamPilot::tell_of(const Event& event, const Sighting& sighting) {
 
 void TeamPilot::plan(double now, std::span<const Order> orders) {
   if (members_.empty()) return;
+  compare_islands(now);
   note_islands(now);
   note_closures(now);
   std::vector<DistanceField> fields;
@@ -209,15 +220,24 @@ std::vector<Doubt> TeamPilot::open_doubts() const {
   return doubts;
 }
 
+void TeamPilot::compare_islands(double now) {
+  if (members_.size() < 2 || now - proposed_at_ < options_.propose_period) return;
+  const Timed timed(times_.map_s);
+  proposed_at_ = now;
+  mapper_.propose();
+  if (!options_.greedy) return;
+  for (std::size_t i = 0; i < mapper_.ledger().size(); ++i) {
+    const Hypothesis h = mapper_.ledger()[i];
+    if (!h.is_undecided() || h.source != HypothesisSource::lookalike) continue;
+    mapper_.decide(decision_about(map(), h, HypothesisState::accepted, "it looks alike"));
+  }
+}
+
 void TeamPilot::settle(double now, const Settled& settled) {
   const Hypothesis& h = mapper_.ledger()[settled.doubt];
   const bool met = settled.outcome == MeetingOutcome::met;
-  Decision decision;
-  decision.state = met ? HypothesisState::accepted : HypothesisState::distinct;
-  decision.source = h.source;
-  decision.a = first_place(map(), h);
-  decision.b = second_place(map(), h);
-  decision.reason = settled.reason;
+  const Decision decision =
+      decision_about(map(), h, met ? HypothesisState::accepted : HypothesisState::distinct, settled.reason);
   journal_.push_back({now, JournalKind::rendezvous, name(settled.watcher), settled.reason});
   mapper_.decide(decision);
 }

@@ -1,6 +1,7 @@
 // Maps what robots report, decides where they go and steers them there: all that a team without an operator needs.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
@@ -26,6 +27,9 @@ struct PilotOptions {
   double route_period = 4;     ///< a route is planned anew this often: more is known by then, seconds
   double closed_for = 15;      ///< where a robot was blocked no other way leads through for so long, seconds
   double closed_radius = 0.4;  ///< metres
+  double propose_period = 10;  ///< islands are compared with one another this often, seconds
+  /// What looks alike is taken for the same place at once, and nobody goes to see: an experiment's baseline.
+  bool greedy = false;
 };
 
 /// Where CPU time went, seconds of this thread.
@@ -75,6 +79,7 @@ class TeamPilot {
   void note_islands(double now);
   void note_closures(double now);
   [[nodiscard]] std::vector<Doubt> open_doubts() const;
+  void compare_islands(double now);
   void settle(double now, const Settled& settled);
   void direct(Member& member, const Goal& goal, double now);
   void find_way(Member& member, double now);
@@ -92,6 +97,7 @@ class TeamPilot {
   ExploreJournal journal_;
   PilotTimes times_;
   std::size_t merges_ = 0, closures_ = 0;
+  double proposed_at_ = -HUGE_VAL;
 };
 
 }  // namespace helicoid

@@ -17,6 +17,7 @@ namespace helicoid {
 [[nodiscard]] Experiment playback_experiment();
 [[nodiscard]] Experiment radio_experiment();
 [[nodiscard]] Experiment relations_experiment();
+[[nodiscard]] Experiment rendezvous_experiment();
 [[nodiscard]] Experiment retro_traverse_experiment();
 [[nodiscard]] Experiment spiral_experiment();
 [[nodiscard]] Experiment swarm_experiment();

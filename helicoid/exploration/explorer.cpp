@@ -171,15 +171,17 @@ bool Explorer::is_known(const Map& map, const Doubt& doubt) const {
 }
 
 /// By expected gain: if the places are one, what lies beyond either of them need not be looked at from the other's
-/// side.
+/// side. Between two islands that is all that is open on either: neither knows what the other has seen.
 bool Explorer::is_worth_meeting(const Situation& s, const Doubt& doubt, const Pairing& pair) const {
   if (s.frontiers.empty()) return true;
   double saved_m2 = 0;
+  const bool between_islands = s.map.island_of(doubt.a) != s.map.island_of(doubt.b);
   for (const Frontier& frontier : s.frontiers) {
     for (const PatchId place : {doubt.a, doubt.b}) {
       const Vector2d apart = project(s.map, frontier.middle) - s.map.T_plane_patch(place).translation();
-      const bool near = s.map.island_of(place) == frontier.island && apart.norm() <= options_.doubt_reach;
-      if (near) saved_m2 += 0.5 * std::min(frontier.gain_m2, options_.assignment.most_gain);
+      const bool near = between_islands || apart.norm() <= options_.doubt_reach;
+      if (near && s.map.island_of(place) == frontier.island)
+        saved_m2 += 0.5 * std::min(frontier.gain_m2, options_.assignment.most_gain);
     }
   }
   const auto worth_exploring = [&](std::span<const std::uint8_t> is_free) {
@@ -216,7 +218,7 @@ void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
     if (!posts || posts->chance < options_.rendezvous.sure) continue;
     const std::optional<Pairing> pair = choose_pair(*posts, doubt, s.travel, s.is_free);
     if (!pair || !is_worth_meeting(s, doubt, *pair)) continue;
-    desk_.begin(s.now, doubt, *posts, *pair, s.members);
+    desk_.begin(s.now, s.map, doubt, *posts, *pair, s.members);
     keep_meetings(s, plan);
   }
   doubt_turn_ += static_cast<std::size_t>(options_.doubts_a_plan);

@@ -16,6 +16,19 @@ constexpr double kDistances[] = {2.5, 2.0, 3.0, 1.5, 3.5};            // metres
 constexpr double kBearings[] = {0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9};  // radians
 constexpr float kDepth = 0.4F;                                        // before what patch a saw behind it, metres
 
+/// Where a doubt would move what lies about its second place, in the plane of the first.
+Pose2 correction_of(const Map& map, const Doubt& doubt) {
+  return map.T_plane_patch(doubt.a) * doubt.T_a_b.T_a_b * map.T_plane_patch(doubt.b).inverse();
+}
+
+/// True if both would lay one part of the map over another in the same way, seen from the second doubt's place.
+bool lays_alike(const Map& map, const Doubt& first, const Doubt& second, const Pose2& T_by_first, double alike) {
+  constexpr double kTurn = 0.35;  // radians
+  const Pose2 T_plane_b = map.T_plane_patch(second.b);
+  const Pose2 off = (T_by_first * T_plane_b).inverse() * correction_of(map, second) * T_plane_b;
+  return map.island_of(first.a) != map.island_of(first.b) && off.distance() <= alike && std::abs(off.yaw) <= kTurn;
+}
+
 ManifoldPoint watcher_post(const Doubt& doubt, const Posts& posts) {
   return {doubt.a, posts.T_a_watcher.translation()};
 }
@@ -74,11 +87,11 @@ Goal Meeting::goal_of(RobotId robot) const {
           doubt.id};
 }
 
-void RendezvousDesk::begin(double now, const Doubt& doubt, const Posts& posts, const Pairing& pair,
+void RendezvousDesk::begin(double now, const Map& map, const Doubt& doubt, const Posts& posts, const Pairing& pair,
                            std::span<const TeamMember> members) {
   const double deadline = now + options_.patience + pair.longest / options_.slowest;
   meetings_.push_back({doubt, posts, pair.watcher, pair.shown, members[pair.watcher].robot, members[pair.shown].robot,
-                       deadline, -1, false});
+                       deadline, -1, false, map.island_of(doubt.a) != map.island_of(doubt.b)});
 }
 
 const Meeting* RendezvousDesk::meeting_of(RobotId robot) const {
@@ -98,7 +111,15 @@ bool RendezvousDesk::asks_the_same(const Map& map, const Doubt& a, const Doubt& 
     return map.island_of(p) == map.island_of(q) &&
            (map.T_plane_patch(p).translation() - map.T_plane_patch(q).translation()).norm() <= options_.alike;
   };
-  return a.id == b.id || (near(a.a, b.a) && near(a.b, b.b)) || (near(a.a, b.b) && near(a.b, b.a));
+  if (a.id == b.id || (near(a.a, b.a) && near(a.b, b.b)) || (near(a.a, b.b) && near(a.b, b.a))) return true;
+  // Between two islands one answer is that to all that would join them alike.
+  const auto same_island = [&](PatchId p, PatchId q) { return map.island_of(p) == map.island_of(q); };
+  if (same_island(a.a, b.a) && same_island(a.b, b.b))
+    return lays_alike(map, a, b, correction_of(map, a), options_.alike);
+  if (same_island(a.a, b.b) && same_island(a.b, b.a)) {
+    return lays_alike(map, a, b, correction_of(map, a).inverse(), options_.alike);
+  }
+  return false;
 }
 
 bool RendezvousDesk::is_open(double now, const Map& map, const Doubt& doubt) const {
@@ -141,6 +162,22 @@ bool RendezvousDesk::stand_there(const Meeting& meeting, const Map& map, std::sp
          stands(meeting.shown, shown_post(meeting.doubt, meeting.posts), meeting.posts.T_b_shown.yaw);
 }
 
+std::optional<Settled> RendezvousDesk::judge_by_join(const Map& map, const Meeting& meeting) const {
+  const Doubt& doubt = meeting.doubt;
+  if (!meeting.between_islands || map.island_of(doubt.a) != map.island_of(doubt.b)) return std::nullopt;
+  const Pose2 T_a_b = map.T_plane_patch(doubt.a).inverse() * map.T_plane_patch(doubt.b);
+  const double off = (doubt.T_a_b.T_a_b.translation() - T_a_b.translation()).norm();
+  Settled settled{doubt.id, MeetingOutcome::met, meeting.watcher_robot, meeting.shown_robot, 1, ""};
+  if (off <= options_.range_error + confidence_interval(doubt.T_a_b.covariance).position) {
+    settled.reason = "robots of both saw each other on the way, and the two places are one";
+  } else {
+    settled.outcome = MeetingOutcome::absent;
+    settled.reason =
+        fmt::format("robots of both saw each other on the way, and the two places lie {:.1f} m from one another", off);
+  }
+  return settled;
+}
+
 std::optional<Settled> RendezvousDesk::judge(double now, const Map& map, Meeting& meeting,
                                              std::span<const TeamMember> members) const {
   const auto looks = static_cast<int>((now - meeting.there_since) / options_.sighting.period);
@@ -169,6 +206,11 @@ std::vector<Settled> RendezvousDesk::step(double now, const Map& map, std::span<
                                           std::span<const Travel> travel, std::span<const Doubt> doubts) {
   std::vector<Settled> settled;
   std::erase_if(meetings_, [&](Meeting& meeting) {
+    if (std::optional<Settled> known = judge_by_join(map, meeting)) {
+      past_of(meeting.doubt).settled = true;
+      settled.push_back(std::move(*known));
+      return true;
+    }
     const auto same = [&](const Doubt& d) { return d.id == meeting.doubt.id; };
     const auto doubt = std::find_if(doubts.begin(), doubts.end(), same);
     const auto member_of = [&](RobotId robot) {

@@ -58,6 +58,7 @@ struct Meeting {
   double deadline = 0;
   double there_since = -1;  ///< both at their posts; below 0: not yet
   bool sighted = false;
+  bool between_islands = false;  ///< when it began
 
   [[nodiscard]] bool has(RobotId robot) const { return robot == watcher_robot || robot == shown_robot; }
   [[nodiscard]] Goal goal_of(RobotId robot) const;
@@ -86,7 +87,7 @@ class RendezvousDesk {
   /// One robot saw another.
   void saw(const SeenTeammate& sighting);
   /// Sends a pair; its members are told by goal_of until the meeting ends.
-  void begin(double now, const Doubt& doubt, const Posts& posts, const Pairing& pair,
+  void begin(double now, const Map& map, const Doubt& doubt, const Posts& posts, const Pairing& pair,
              std::span<const TeamMember> members);
   /// Looks after the meetings: what has been settled since the last call. Those whose doubts are gone are ended.
   std::vector<Settled> step(double now, const Map& map, std::span<const TeamMember> members,
@@ -111,6 +112,8 @@ class RendezvousDesk {
                                  std::span<const Travel> travel) const;
   [[nodiscard]] std::optional<Settled> judge(double now, const Map& map, Meeting& meeting,
                                              std::span<const TeamMember> members) const;
+  /// Robots that saw each other, these or others, have joined the islands of the two places: the map tells.
+  [[nodiscard]] std::optional<Settled> judge_by_join(const Map& map, const Meeting& meeting) const;
   Past& past_of(const Doubt& doubt);
   [[nodiscard]] bool asks_the_same(const Map& map, const Doubt& a, const Doubt& b) const;
 

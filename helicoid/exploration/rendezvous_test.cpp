@@ -37,7 +37,7 @@ struct TwoRooms {
   Posts begin() {
     const Posts posts = *find_posts(builder.map, doubt, travel[1]);
     const std::vector<std::uint8_t> both(2, 1);
-    desk.begin(0, doubt, posts, *choose_pair(posts, doubt, travel, both), members);
+    desk.begin(0, builder.map, doubt, posts, *choose_pair(posts, doubt, travel, both), members);
     return posts;
   }
   void stand(const Posts& posts) {
@@ -99,6 +99,38 @@ TEST(Rendezvous, RobotsThatWereSurelyThereAndSawNobodySettleThatThePlacesAreDist
   EXPECT_FALSE(rooms.desk.is_open(now + 1000, rooms.builder.map, rooms.doubt)) << "it is not asked again";
 }
 
+/// A robot's two rooms on an island each, 20 m apart on either.
+struct TwoIslands {
+  Builder builder;
+  Doubt first, second;
+  RendezvousDesk desk;
+  std::vector<TeamMember> members;
+
+  TwoIslands() {
+    const auto walls = synthetic::rectangle(0, 0, 8, 6);
+    const auto other_walls = synthetic::rectangle(20, 0, 26, 6);
+    const PatchId a = builder.add(walls, {1.5, 3, 0});
+    const PatchId other_a = builder.add(other_walls, {21.5, 3, 0});
+    builder.island = MapEditor(builder.map).add_island();
+    const PatchId b = builder.add(walls, {1.5, 3, 0}, {3, 1.5, std::numbers::pi / 2});
+    const PatchId other_b = builder.add(other_walls, {21.5, 3, 0}, {3, 21.5, std::numbers::pi / 2});
+    first = {7, a, b, {{}, Matrix3d::Identity() * 1e-4}, 1};
+    second = {8, other_a, other_b, {{}, Matrix3d::Identity() * 1e-4}, 1};
+    members = {{RobotId{0}, {a, {}}, true, 1, {a, Vector2d::Zero()}},
+               {RobotId{1}, {b, {}}, true, 1, {b, Vector2d::Zero()}}};
+    desk.begin(0, builder.map, first, {{}, {}, 1}, {0, 1, 10, 5}, members);
+  }
+};
+
+TEST(Rendezvous, DoubtsThatWouldJoinTwoIslandsAlikeAskTheSame) {
+  TwoIslands two;
+  EXPECT_FALSE(two.desk.is_open(1, two.builder.map, two.second));
+  std::swap(two.second.a, two.second.b);
+  EXPECT_FALSE(two.desk.is_open(1, two.builder.map, two.second));
+  two.second.T_a_b.T_a_b.yaw = 1;
+  EXPECT_TRUE(two.desk.is_open(1, two.builder.map, two.second));
+}
+
 TEST(Rendezvous, AbsenceDoesNotCountWhereTheRobotMightHaveBeenOutOfView) {
   TwoRooms rooms;
   rooms.doubt.T_a_b.covariance = Vector3d(4, 4, 0.5).asDiagonal();
@@ -114,7 +146,7 @@ TEST(Rendezvous, AMeetingThatDoesNotComeAboutIsGivenUpAfterAFewTries) {
   for (int round = 0; round < options.most_tries; ++round) {
     ASSERT_TRUE(rooms.desk.is_open(now, rooms.builder.map, rooms.doubt));
     const Posts posts = *find_posts(rooms.builder.map, rooms.doubt, rooms.travel[1]);
-    rooms.desk.begin(now, rooms.doubt, posts, {0, 1, 10, 5}, rooms.members);
+    rooms.desk.begin(now, rooms.builder.map, rooms.doubt, posts, {0, 1, 10, 5}, rooms.members);
     now += 1000;
     EXPECT_THAT(rooms.step(now), IsEmpty());
     EXPECT_THAT(rooms.desk.meetings(), IsEmpty());

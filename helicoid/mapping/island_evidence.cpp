@@ -1,5 +1,7 @@
 #include "helicoid/mapping/island_evidence.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -96,6 +98,21 @@ IslandJoin join_of(const Hypothesis& h) {
   return join;
 }
 
+/// True of a proposal whose islands are one by now: it is rejected if the map has the two places elsewhere.
+bool is_answered(const Map& map, LoopCloser& closer, std::size_t entry, const IslandEvidenceOptions& options) {
+  Hypothesis h = closer.ledger()[entry];
+  if (map.island_of(h.a) != map.island_of(h.b)) return false;
+  const Pose2 T_a_b = map.T_plane_patch(h.a).inverse() * map.T_plane_patch(h.b);
+  const double off = (T_a_b.translation() - h.T_a_b.T_a_b.translation()).norm();
+  const double allowed = 2 * options.placed_within + confidence_interval(h.T_a_b.covariance).position;
+  if (!h.is_undecided() || off <= allowed) return true;
+  h.state = HypothesisState::rejected;
+  h.decided_by = DecidedBy::evidence;
+  h.reason = fmt::format("the islands were joined otherwise: there the place lies {:.1f} m off", off);
+  closer.revise(entry, std::move(h));
+  return true;
+}
+
 /// One pair of islands; `here` is the smaller one.
 bool compare_islands(MapInProgress& progress, LoopCloser& closer, const Island& there, const Island& here,
                      bool may_join, const MapperOptions& mapper, const IslandEvidenceOptions& options) {
@@ -130,6 +147,41 @@ bool join_on_evidence(MapInProgress& progress, LoopCloser& closer, bool may_join
     joined = joined || again;
   }
   return joined;
+}
+
+std::vector<PatchId> IslandProposals::new_places(const Map& map, const LoopCloser& closer,
+                                                 const IslandEvidenceOptions& options) {
+  // A robot that has only just begun has not seen a place yet.
+  looked_at_.resize(map.robots().size(), 0);
+  std::vector<PatchId> places;
+  for (; next_ < map.patch_count(); ++next_) {
+    const PatchId id = make_id<PatchId>(next_);
+    double& last = looked_at_[map.patch(id).robot.index()];
+    if (closer.along()[next_] - last < options.place_spacing) continue;
+    last = closer.along()[next_];
+    places.push_back(id);
+  }
+  return places;
+}
+
+void IslandProposals::look(MapInProgress& progress, LoopCloser& closer, const MapperOptions& mapper,
+                           const IslandEvidenceOptions& options) {
+  const Map& map = progress.map;
+  closer.follow_ways(map);
+  std::erase_if(waiting_, [&](std::size_t entry) { return is_answered(map, closer, entry, options); });
+  const std::vector<PatchId> places = new_places(map, closer, options);
+  const std::vector<Island> islands = map.islands();
+  for (const Island& there : islands) {
+    if (islands.size() == 1 || places.empty()) break;
+    const IslandView view = view_of(map, there, options);
+    for (const PatchId place : places) {
+      if (map.island_of(place) == there.id) continue;
+      std::optional<Hypothesis> h = look_for(map, progress.graph, place, there, view, mapper, options);
+      if (!h) continue;
+      waiting_.push_back(closer.ledger().size());
+      closer.consider_between(map, progress.graph, std::move(*h), false);
+    }
+  }
 }
 
 void act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,

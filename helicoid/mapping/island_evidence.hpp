@@ -19,6 +19,23 @@ struct IslandEvidenceOptions {
 bool join_on_evidence(MapInProgress& progress, LoopCloser& closer, bool may_join, const MapperOptions& mapper,
                       const IslandEvidenceOptions& options = {});
 
+/// The same while robots drive, as proposals that nobody acts on: what was mapped since the last call is looked for on
+/// all other islands. Where islands have been joined since, by other evidence, proposals that would have joined them
+/// otherwise are rejected.
+class IslandProposals {
+ public:
+  void look(MapInProgress& progress, LoopCloser& closer, const MapperOptions& mapper,
+            const IslandEvidenceOptions& options = {});
+
+ private:
+  [[nodiscard]] std::vector<PatchId> new_places(const Map& map, const LoopCloser& closer,
+                                                const IslandEvidenceOptions& options);
+
+  std::vector<double> looked_at_;     ///< by robot: how far along its way it was looked for last, metres
+  std::size_t next_ = 0;              ///< patches before it were thought of
+  std::vector<std::size_t> waiting_;  ///< in the ledger, between islands
+};
+
 /// Acts on entries that were accepted together, of one island or between two: these are brought into rough alignment
 /// first (IV-C).
 void act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,

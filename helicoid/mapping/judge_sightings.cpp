@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "helicoid/fit/half_solves.hpp"
 #include "helicoid/fit/relative_covariance.hpp"
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/sighting_fit.hpp"
@@ -15,13 +16,14 @@ namespace helicoid {
 
 namespace {
 
-/// The exact relative covariance of any two places of one island (eq. 9-10), factorised when first asked for.
+/// The exact relative covariance of any two places of one island (eq. 9-10), factorised when first asked for. Robots
+/// that are near see each other again and again from the same patches: half solves are kept.
 class ExactPoses {
  public:
   explicit ExactPoses(const Map& map) : map_(map) {
     for (Island& island : map.islands()) {
       const IslandId id = island.id;
-      islands_.emplace(id, Known{std::move(island), {}});
+      islands_.emplace(id, Known{std::move(island), {}, {}});
     }
   }
   /// T_p_q with its covariance, noise floors of the two scans included; nothing if the map leaves it open.
@@ -32,7 +34,10 @@ class ExactPoses {
     if (!known.covariance) factorise(known);
     if (!known.covariance->is_determined()) return std::nullopt;
     UncertainPose2 T{map_.T_plane_patch(p.patch).inverse() * map_.T_plane_patch(q.patch), Matrix3d::Zero()};
-    if (p.patch != q.patch) T = known.covariance->of(known.island.place_of(p.patch), known.island.place_of(q.patch));
+    if (p.patch != q.patch) {
+      T.covariance =
+          known.halves->relative_covariance(T.T_a_b, known.island.place_of(p.patch), known.island.place_of(q.patch));
+    }
     T = compound(compound(invert({p.T_patch_robot, robot_p.covariance}), T), {q.T_patch_robot, robot_q.covariance});
     const LaserModel& of_p = map_.patch(p.patch).laser;
     const LaserModel& of_q = map_.patch(q.patch).laser;
@@ -45,11 +50,15 @@ class ExactPoses {
   struct Known {
     Island island;
     std::unique_ptr<RelativeCovariance> covariance;
+    std::unique_ptr<HalfSolves> halves;  ///< if it is determined and of two patches at least
   };
   void factorise(Known& known) const {
     const std::vector<Pose2> poses = island_poses(map_, known.island);
     const std::vector<GraphEdge> edges = graph_edges(map_, known.island);
     known.covariance = std::make_unique<RelativeCovariance>(poses, edges);
+    if (poses.size() > 1 && known.covariance->is_determined()) {
+      known.halves = std::make_unique<HalfSolves>(known.covariance->system());
+    }
   }
   const Map& map_;
   std::map<IslandId, Known> islands_;

@@ -5,7 +5,6 @@
 
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/fit_islands.hpp"
-#include "helicoid/mapping/island_evidence.hpp"
 #include "helicoid/mapping/join_on_sightings.hpp"
 #include "helicoid/mapping/judge_sightings.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
@@ -13,7 +12,6 @@
 #include "helicoid/mapping/relate.hpp"
 #include "helicoid/mapping/sighting_fit.hpp"
 #include "helicoid/mapping/tie_neighbours.hpp"
-#include "helicoid/mapping/tie_on_sightings.hpp"
 
 namespace helicoid {
 
@@ -113,8 +111,7 @@ void Mapper::State::join_what_is_determined(bool last) {
   bool changed = options.closures && reported.take_placed(progress, closer, last, options);
   if (sightings.place_waiting(map, graph, closer, options.decisions, last) || last) {
     const bool joined = join_on_sightings(progress, closer, sightings, last, options);
-    const bool tied = options.closures && tie_on_sightings(progress, closer, sightings, sightings_seen, options);
-    sightings_seen = sightings.placed().size();
+    const bool tied = options.closures && sighting_ties.tie(progress, closer, sightings, last, options);
     sighting_acted_on = sighting_acted_on || joined;
     changed = changed || joined || tied;
   }
@@ -231,6 +228,15 @@ Step Mapper::process(const Event& event) {
   if (const auto* sighting = std::get_if<Sighting>(&event.body)) state_->take(event, *sighting);
   if (const auto* alike = std::get_if<Lookalike>(&event.body)) state_->take(event, *alike);
   return {};
+}
+
+void Mapper::propose() {
+  State& s = *state_;
+  if (!s.options.closures || !s.options.look_alikes) return;
+  const double began = thread_seconds();
+  MapInProgress progress{s.map, s.editor, s.graph};
+  s.proposals.look(progress, s.closer, s.options);
+  s.times.close_s += thread_seconds() - began;
 }
 
 void Mapper::decide(const Decision& decision) {

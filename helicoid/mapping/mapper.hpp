@@ -71,6 +71,9 @@ class Mapper {
   /// A decision that is made during the run: it holds from here on, for entries to come and for those that nobody has
   /// decided yet. What was acted on stays: taking it back is a replay.
   void decide(const Decision& decision);
+  /// Where islands may lie on one another by what was mapped since the last call: entries of the ledger that wait for a
+  /// decision. For teams that can go and see; finish() looks for all of them in any case.
+  void propose();
   /// The last global fit, after the last event. Idempotent.
   void finish();
 

@@ -3,10 +3,12 @@
 
 #include "helicoid/align/align_scan.hpp"
 #include "helicoid/mapping/close_loops.hpp"
+#include "helicoid/mapping/island_evidence.hpp"
 #include "helicoid/mapping/mapper.hpp"
 #include "helicoid/mapping/reported_places.hpp"
 #include "helicoid/mapping/robot_state.hpp"
 #include "helicoid/mapping/sighting_log.hpp"
+#include "helicoid/mapping/tie_on_sightings.hpp"
 
 namespace helicoid {
 
@@ -19,12 +21,13 @@ struct Mapper::State {
   InformationGraph graph;
   LoopCloser closer;
   SightingLog sightings;
+  SightingTies sighting_ties;
   ReportedPlaces reported;
+  IslandProposals proposals;
   std::vector<RobotState> robots;
   MapperCounts counts;
   MapperTimes times;
   std::size_t patches_at_last_fit = 0;
-  std::size_t sightings_seen = 0;  ///< of those that were placed, by tie_on_sightings
   bool sighting_acted_on = false;
 
   void go_on_from(Map before);

@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "helicoid/manifold/confidence.hpp"
 #include "helicoid/mapping/close_loops.hpp"
@@ -12,6 +14,9 @@
 namespace helicoid {
 
 namespace {
+
+/// Ties wait for one fit until there is one to so many patches: what a fit costs grows with the map.
+constexpr double kWaiting = 0.01;
 
 /// Of two patches as the graph knows them, an upper bound; nothing if it is within the limits or open.
 std::optional<UncertainPose2> vague_pose(const MapInProgress& progress, PatchId a, PatchId b,
@@ -79,6 +84,15 @@ std::optional<Relation> relation_of(const MapInProgress& progress, const LoopClo
                   0};
 }
 
+/// The map is off by more than what it calls near (eq. 12), and the sighting's noise does not account for it.
+bool is_far_off(const Map& map, const Relation& said, const MapperOptions& options) {
+  const Pose2 T_said_map = said.T_a_b.inverse() * map.T_plane_patch(said.a).inverse() * map.T_plane_patch(said.b);
+  const Matrix3d covariance = expand(said.form, said.T_a_b).information.inverse();
+  const ConfidenceInterval noise = confidence_interval(covariance);
+  return T_said_map.distance() > std::max(options.reference_position, noise.position) ||
+         std::abs(T_said_map.yaw) > std::max(options.reference_heading, noise.heading);
+}
+
 void accept(LoopCloser& closer, const SightingRecord& record) {
   Hypothesis h = closer.ledger()[record.entry];
   if (h.state == HypothesisState::accepted) return;
@@ -91,19 +105,22 @@ void accept(LoopCloser& closer, const SightingRecord& record) {
 
 }  // namespace
 
-bool tie_on_sightings(MapInProgress& progress, LoopCloser& closer, const SightingLog& log, std::size_t seen,
-                      const MapperOptions& options) {
-  std::vector<PatchId> tied;
-  for (const SightingRecord& record : log.placed().subspan(seen)) {
+bool SightingTies::tie(MapInProgress& progress, LoopCloser& closer, const SightingLog& log, bool last,
+                       const MapperOptions& options) {
+  for (const SightingRecord& record : log.placed().subspan(seen_)) {
     const std::optional<Relation> relation = relation_of(progress, closer, record, options);
     if (!relation) continue;
+    fit_now_ = fit_now_ || is_far_off(progress.map, *relation, options);
     progress.add(*relation);
     accept(closer, record);
-    tied.push_back(relation->a);
-    tied.push_back(relation->b);
+    tied_.push_back(relation->a);
+    tied_.push_back(relation->b);
   }
-  if (tied.empty()) return false;
-  spread(progress, closer, std::move(tied), options);
+  seen_ = log.placed().size();
+  const bool many = static_cast<double>(tied_.size()) > 2 * kWaiting * static_cast<double>(progress.map.patch_count());
+  if (tied_.empty() || !(last || fit_now_ || many)) return false;
+  spread(progress, closer, std::exchange(tied_, {}), options);
+  fit_now_ = false;
   return true;
 }
 

@@ -8,11 +8,20 @@
 
 namespace helicoid {
 
-/// Looks at the sightings placed since the first `seen`. One that names its robot, measured all three degrees of
-/// freedom and agrees with what the map knows (chi^2), ties the two patches, unless the scans about either contradict
-/// it or the map is confident of them already (eq. 12). Then fits, and relates what has become related (eq. 16).
-/// What an operator accepted ties in any case. True if the map has changed.
-bool tie_on_sightings(MapInProgress& progress, LoopCloser& closer, const SightingLog& log, std::size_t seen,
-                      const MapperOptions& options);
+class SightingTies {
+ public:
+  /// Looks at the sightings placed since the last call. One that names its robot, measured all three degrees of
+  /// freedom and agrees with what the map knows (chi^2), ties the two patches, unless the scans about either contradict
+  /// it or the map is confident of them already (eq. 12). What an operator accepted ties in any case. Then fits, and
+  /// relates what has become related (eq. 16): at once where the map is far off what was seen, else when it is worth a
+  /// fit of the whole, or at the `last` call. True if poses have changed.
+  bool tie(MapInProgress& progress, LoopCloser& closer, const SightingLog& log, bool last,
+           const MapperOptions& options);
+
+ private:
+  std::size_t seen_ = 0;       ///< of those that were placed
+  std::vector<PatchId> tied_;  ///< since the last fit
+  bool fit_now_ = false;
+};
 
 }  // namespace helicoid

@@ -56,7 +56,7 @@ struct Pair {
     log.place_waiting(map, graph, closer, {}, true);
     MapEditor editor(map);
     MapInProgress progress{map, editor, graph};
-    return tie_on_sightings(progress, closer, log, 0, {});
+    return SightingTies().tie(progress, closer, log, true, {});
   }
   [[nodiscard]] double error() const {
     const Pose2 T = map.poses()[0].inverse() * map.poses()[1];
