@@ -2,6 +2,7 @@
 #pragma once
 
 #include "helicoid/mapping/join_islands.hpp"
+#include "helicoid/mapping/join_on_trial.hpp"
 
 namespace helicoid {
 
@@ -20,8 +21,9 @@ bool join_on_evidence(MapInProgress& progress, LoopCloser& closer, bool may_join
                       const IslandEvidenceOptions& options = {});
 
 /// Acts on entries that were accepted together, of one island or between two: these are brought into rough alignment
-/// first (IV-C).
-void act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,
-                    const MapperOptions& mapper);
+/// first (IV-C). What evidence joins must hold all over: islands that so joined contradict each other are left apart,
+/// and the entries open. True if the map was changed.
+bool act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,
+                    JoinTrials& trials, const MapperOptions& mapper);
 
 }  // namespace helicoid

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "helicoid/mapping/loop_closer.hpp"
 #include "helicoid/mapping/mapper.hpp"
 #include "tests/known_building.hpp"
 
@@ -110,6 +111,24 @@ TEST(Islands, WhatTheyHaveInCommonJoinsThemIfItMay) {
       map.project(map.robots()[0].trajectory[0].pose).inverse() * map.project(map.robots()[1].trajectory[0].pose);
   const Pose2 truth = drives.first.truth[0].inverse() * drives.second.truth[0];
   EXPECT_LT((truth.inverse() * T).distance(), 0.15);
+}
+
+TEST(Islands, FloorsOfOnePlanOnWhichThingsStandElsewhereStayApart) {
+  std::vector<Segment> upstairs = synthetic::building();
+  // The last are furniture.
+  for (std::size_t i = upstairs.size() - 3; i < upstairs.size(); ++i) {
+    upstairs[i].from += Vector2d(1.2, 1.3);
+    upstairs[i].to += Vector2d(1.2, 1.3);
+  }
+  TwoDrives drives;
+  drives.second = synthetic::drive(1, 6, the_other_way(), upstairs);
+  const Mapper mapper = drives.map(false, true);
+  EXPECT_EQ(mapper.map().islands().size(), 2U);
+  const auto left_open =
+      std::find_if(mapper.ledger().begin(), mapper.ledger().end(), [](const Hypothesis& h) { return is_left_open(h); });
+  ASSERT_NE(left_open, mapper.ledger().end());
+  EXPECT_TRUE(left_open->is_undecided());
+  EXPECT_NE(left_open->reason.find("the islands contradict each other"), std::string::npos);
 }
 
 TEST(Islands, AMergeMovesTheIslandWithFewerPatches) {
