@@ -10,6 +10,7 @@ namespace helicoid {
 [[nodiscard]] Experiment campus_experiment();
 [[nodiscard]] Experiment crispness_experiment();
 [[nodiscard]] Experiment fig6_experiment();
+[[nodiscard]] Experiment floors_experiment();
 [[nodiscard]] Experiment laps_experiment();
 [[nodiscard]] Experiment lies_experiment();
 [[nodiscard]] Experiment mrclam_experiment();
@@ -21,6 +22,7 @@ namespace helicoid {
 [[nodiscard]] Experiment retro_traverse_experiment();
 [[nodiscard]] Experiment spiral_experiment();
 [[nodiscard]] Experiment swarm_experiment();
+[[nodiscard]] Experiment symmetry_experiment();
 [[nodiscard]] Experiment team_gain_experiment();
 [[nodiscard]] Experiment teams_experiment();
 [[nodiscard]] Experiment undo_experiment();

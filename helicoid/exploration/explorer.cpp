@@ -41,10 +41,8 @@ FrontierLeft left_out(const Frontier& frontier, std::string reason) {
 }
 
 std::string why_closed(const Frontier& frontier) {
-  if (frontier.status == FrontierStatus::open) return "looked at or tried in vain";
-  if (frontier.opening > 0 || frontier.status == FrontierStatus::too_narrow)
-    return fmt::format("opening of {:.2f} m", frontier.opening);
-  return "no way there";
+  if (frontier.is_narrow) return fmt::format("opening of {:.2f} m", frontier.opening);
+  return frontier.status == FrontierStatus::unreachable ? "no way there" : "looked at or tried in vain";
 }
 
 /// The rows of robots that are free; infinite elsewhere.

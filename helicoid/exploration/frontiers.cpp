@@ -229,8 +229,8 @@ Frontier FrontierFinder::judge(const Map& map, const EdgeCluster& cluster, std::
   stood.reserve(patches.size());
   for (const PatchId id : patches) stood.push_back(ground_cell(map.T_plane_patch(id).translation()));
   frontier.opening = widest_opening(window, edge, stood);
-  const bool narrow = frontier.opening < 2 * options_.robot_radius;
-  frontier.status = narrow ? FrontierStatus::too_narrow : FrontierStatus::unreachable;
+  frontier.is_narrow = frontier.opening < 2 * options_.robot_radius;
+  frontier.status = frontier.is_narrow ? FrontierStatus::too_narrow : FrontierStatus::unreachable;
   if (frontier.gain_m2 < options_.least_gain_near) return frontier;
   if (const auto near = nearest_stand(map, window, patches, cluster.middle_plane, travel, options_)) {
     frontier.goal = *near;

@@ -37,6 +37,7 @@ struct Frontier {
   std::vector<Vector2d> edge_patch;  ///< in the middle's patch, metres
   double length = 0;                 ///< of the edge, metres
   double opening = 0;                ///< the width of the narrowest place on the way there; 0: not looked for; metres
+  bool is_narrow = false;            ///< too narrow for a robot
   double gain_m2 = 0;                ///< what a look from the goal would newly see
   std::vector<SeenSquare> seen;      ///< the same, ascending by row and column
 };

@@ -4,19 +4,34 @@
 
 namespace helicoid {
 
-SeenFree::SeenFree(const Patch& patch) : ranges_(patch.free_ranges), beams_(patch.laser) {
+SeenFree::SeenFree(const Patch& patch) : ranges_(patch.free_ranges), measured_(patch.scan.ranges), beams_(patch.laser) {
   const Pose2 T_laser_patch = patch.scan.T_robot_laser.inverse();
   R_laser_patch_ = T_laser_patch.rotation().cast<float>();
   t_laser_patch_ = T_laser_patch.translation().cast<float>();
 }
 
+std::ptrdiff_t SeenFree::beam_at(const Eigen::Vector2f& p_laser) const {
+  const auto beam = static_cast<std::ptrdiff_t>(std::floor(beams_.at(p_laser.x(), p_laser.y()) + 0.5F));
+  return beam < 1 || beam + 1 >= std::ssize(ranges_) ? -1 : beam;
+}
+
 bool SeenFree::is_deep(const Eigen::Vector2f& p_patch, float depth) const {
   const Eigen::Vector2f p_laser = R_laser_patch_ * p_patch + t_laser_patch_;
-  const auto beam = static_cast<std::ptrdiff_t>(std::floor(beams_.at(p_laser.x(), p_laser.y()) + 0.5F));
-  if (beam < 1 || beam + 1 >= std::ssize(ranges_)) return false;
+  const std::ptrdiff_t beam = beam_at(p_laser);
+  if (beam < 0) return false;
   const float needed = p_laser.norm() + depth;
   const float* at = ranges_.data() + beam;
   return at[-1] >= needed && at[0] >= needed && at[1] >= needed;
+}
+
+bool SeenFree::ends_at(const Eigen::Vector2f& p_patch, float within) const {
+  const Eigen::Vector2f p_laser = R_laser_patch_ * p_patch + t_laser_patch_;
+  const std::ptrdiff_t beam = beam_at(p_laser);
+  if (beam < 0) return false;
+  const float expected = p_laser.norm();
+  const float* at = measured_.data() + beam;
+  return std::abs(at[-1] - expected) <= within || std::abs(at[0] - expected) <= within ||
+         std::abs(at[1] - expected) <= within;
 }
 
 int count_contradictions(const Patch& patch, const ScanPoints& points, const Pose2& T_patch_points, double depth) {

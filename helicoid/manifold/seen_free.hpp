@@ -15,8 +15,15 @@ class SeenFree {
   /// along the beam that looks there and along its neighbours: a point behind an edge is not inside.
   [[nodiscard]] bool is_deep(const Eigen::Vector2f& p_patch, float depth) const;
 
+  /// True if the beam that looks there, or one beside it, ended this near the point: what was there is there still.
+  [[nodiscard]] bool ends_at(const Eigen::Vector2f& p_patch, float within) const;
+
  private:
+  /// The beam that looks at a point (laser frame) and has one on either side; below 0: none.
+  [[nodiscard]] std::ptrdiff_t beam_at(const Eigen::Vector2f& p_laser) const;
+
   const std::vector<float>& ranges_;
+  const std::vector<float>& measured_;
   BeamFinder beams_;
   Eigen::Matrix2f R_laser_patch_;
   Eigen::Vector2f t_laser_patch_;

@@ -46,5 +46,18 @@ TEST(SeenFree, AWallInFrontOfThatWhichWasSeenIsContradicted) {
   EXPECT_EQ(count_contradictions(map.patch(after), map.patch(before).points, {}, 0.15), 0);
 }
 
+TEST(SeenFree, ABeamEndsAtWhatItSawAndNotBeforeOrBehindIt) {
+  synthetic::Builder builder;
+  const PatchId id = builder.add(synthetic::rectangle(0, 0, 6, 4), {1, 2, 0});
+  const SeenFree seen(builder.map.patch(id));
+  // Straight ahead stands the wall at x = 6.
+  EXPECT_TRUE(seen.ends_at({5, 0}, 0.05F));
+  EXPECT_TRUE(seen.ends_at({4.9F, 0}, 0.15F));
+  EXPECT_FALSE(seen.ends_at({4.5F, 0}, 0.15F));
+  EXPECT_FALSE(seen.ends_at({5.5F, 0}, 0.15F));
+  // No beam looks behind.
+  EXPECT_FALSE(seen.ends_at({-1, 0}, 10));
+}
+
 }  // namespace
 }  // namespace helicoid

@@ -88,16 +88,6 @@ std::optional<Hypothesis> look_for(const Map& map, const InformationGraph& graph
   return h;
 }
 
-IslandJoin join_of(const Hypothesis& h) {
-  IslandJoin join;
-  join.determined = true;
-  join.a = h.a;
-  join.b = h.b;
-  join.T_a_b = h.T_a_b.T_a_b;
-  join.information = h.T_a_b.covariance.inverse();
-  return join;
-}
-
 /// True of a proposal whose islands are one by now: it is rejected if the map has the two places elsewhere.
 bool is_answered(const Map& map, LoopCloser& closer, std::size_t entry, const IslandEvidenceOptions& options) {
   Hypothesis h = closer.ledger()[entry];
@@ -118,13 +108,12 @@ bool compare_islands(MapInProgress& progress, LoopCloser& closer, const Island& 
                      bool may_join, const MapperOptions& mapper, const IslandEvidenceOptions& options) {
   const Map& map = progress.map;
   const IslandView view = view_of(map, there, options);
+  JoinTrials trials;
   for (const PatchId place : places_along(here, closer.along(), options)) {
     std::optional<Hypothesis> h = look_for(map, progress.graph, place, there, view, mapper, options);
     if (!h) continue;
     const std::vector<std::size_t> accepted = closer.consider_between(map, progress.graph, std::move(*h), may_join);
-    if (accepted.empty()) continue;
-    act_on_or_join(progress, closer, accepted, mapper);
-    return true;
+    if (!accepted.empty() && act_on_or_join(progress, closer, accepted, trials, mapper)) return true;
   }
   return false;
 }
@@ -184,13 +173,16 @@ void IslandProposals::look(MapInProgress& progress, LoopCloser& closer, const Ma
   }
 }
 
-void act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,
-                    const MapperOptions& mapper) {
-  const Hypothesis h = closer.ledger()[accepted.back()];
-  const bool joins = progress.map.island_of(h.a) != progress.map.island_of(h.b);
-  if (joins) move_rigidly(progress, join_of(h));
-  act_on(progress, closer, accepted, mapper);
-  if (joins) close_loops_again(progress, closer, mapper);
+bool act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,
+                    JoinTrials& trials, const MapperOptions& mapper) {
+  const Hypothesis& h = closer.ledger()[accepted.back()];
+  if (progress.map.island_of(h.a) == progress.map.island_of(h.b)) {
+    act_on(progress, closer, accepted, mapper);
+    return true;
+  }
+  if (h.decided_by == DecidedBy::evidence) return trials.join_if_it_holds(progress, closer, accepted, mapper);
+  join_by_entries(progress, closer, accepted, mapper);
+  return true;
 }
 
 }  // namespace helicoid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "helicoid/mapping/join_islands.hpp"
+#include "helicoid/mapping/join_on_trial.hpp"
 
 namespace helicoid {
 
@@ -37,8 +38,9 @@ class IslandProposals {
 };
 
 /// Acts on entries that were accepted together, of one island or between two: these are brought into rough alignment
-/// first (IV-C).
-void act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,
-                    const MapperOptions& mapper);
+/// first (IV-C). What evidence joins must hold all over: islands that so joined contradict each other are left apart,
+/// and the entries open. True if the map was changed.
+bool act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,
+                    JoinTrials& trials, const MapperOptions& mapper);
 
 }  // namespace helicoid

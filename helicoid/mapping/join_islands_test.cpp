@@ -112,6 +112,19 @@ TEST(Islands, WhatTheyHaveInCommonJoinsThemIfItMay) {
   EXPECT_LT((truth.inverse() * T).distance(), 0.15);
 }
 
+TEST(Islands, FloorsOfOnePlanOnWhichThingsStandElsewhereStayApart) {
+  std::vector<Segment> upstairs = synthetic::building();
+  // The last are furniture.
+  for (std::size_t i = upstairs.size() - 3; i < upstairs.size(); ++i) {
+    upstairs[i].from += Vector2d(1.2, 1.3);
+    upstairs[i].to += Vector2d(1.2, 1.3);
+  }
+  TwoDrives drives;
+  drives.second = synthetic::drive(1, 6, the_other_way(), upstairs);
+  const Mapper mapper = drives.map(false, true);
+  EXPECT_EQ(mapper.map().islands().size(), 2U);
+}
+
 TEST(Islands, AMergeMovesTheIslandWithFewerPatches) {
   const TwoDrives drives;
   Map map = drives.map(false).map();

@@ -6,7 +6,7 @@
 
 #include "helicoid/align/place_search.hpp"
 #include "helicoid/manifold/confidence.hpp"
-#include "helicoid/mapping/two_places.hpp"
+#include "helicoid/mapping/told_apart.hpp"
 
 namespace helicoid {
 
@@ -258,6 +258,8 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
                                         noise_floor(laser_b.floor_position, laser_b.floor_heading));
   h.score = alignment.inlier_share;
   h.contradicted = best.contradicted;
+  h.reason = difference_in_words(map, places, {alignment.T_reference_scan, best.contradicted},
+                                 {fits.second.alignment.T_reference_scan, fits.second.contradicted});
   h.foretold = is_foretold(candidate, places, best, options);
   return h;
 }

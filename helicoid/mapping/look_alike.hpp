@@ -62,6 +62,7 @@ struct Candidate {
                                                        const LookAlikeOptions& options);
 
 /// Aligns what was seen about a place with what was seen about a, over the whole window. Nothing if they do not fit.
+/// Its reason: what rules out the second-best placement, in words; empty if nothing stands out.
 [[nodiscard]] std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph& graph,
                                                        const Candidate& candidate, const PlaceBefore& place,
                                                        const MapperOptions& mapper, const LookAlikeOptions& options);

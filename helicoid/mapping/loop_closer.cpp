@@ -5,10 +5,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "helicoid/manifold/confidence.hpp"
+#include "helicoid/mapping/told_apart.hpp"
 
 namespace helicoid {
 
@@ -99,13 +102,13 @@ std::vector<std::size_t> LoopCloser::look_about(const Map& map, const Informatio
   std::vector<Hypothesis> found;
   for (const Candidate& candidate : candidates) {
     if (std::optional<Hypothesis> h = compare_places(map, graph, candidate, place, mapper_, options)) {
-      h->reason = kWaits;
       found.push_back(std::move(*h));
     }
   }
   compare_with_one_another(map, graph, found);
   std::vector<std::size_t> accepted;
   for (Hypothesis& h : found) {
+    told_apart_[ledger_.size()] = std::exchange(h.reason, kWaits);
     const Quorum quorum = h.foretold ? kForetold : Quorum{options_.least_agreeing, options_.least_way};
     const std::vector<std::size_t> now = enter(map, graph, about_b, std::move(h), quorum);
     accepted.insert(accepted.end(), now.begin(), now.end());
@@ -159,8 +162,9 @@ std::vector<std::size_t> LoopCloser::enter(const Map& map, const InformationGrap
     return h.state == HypothesisState::accepted ? std::vector{entry} : std::vector<std::size_t>{};
   }
   std::vector<std::size_t> agreeing = h.supports;
+  std::erase_if(agreeing, [&](std::size_t i) { return is_left_open(ledger_[i]); });
   agreeing.push_back(entry);
-  return is_enough(agreeing, quorum) ? accept(agreeing) : std::vector<std::size_t>{};
+  return is_enough(agreeing, quorum) ? accept(agreeing, quorum) : std::vector<std::size_t>{};
 }
 
 bool LoopCloser::follow_operator(const Map& map, std::size_t entry) {
@@ -203,15 +207,19 @@ void LoopCloser::withhold_with(std::size_t entry, std::size_t decided) {
   h.reason = fmt::format("says the same as entry {}, about which the operator decided", *h.decided_with);
 }
 
-std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing) {
+std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing, const Quorum& quorum) {
+  const std::string telling = what_tells(ledger_, told_apart_, agreeing, options_.most_ambiguous);
+  // Where those that tell are enough, the others are not acted on: they may lie anywhere along a wall that looks alike.
+  const std::vector<std::size_t> clear = clear_of(agreeing);
   std::vector<std::size_t> accepted;
-  for (const std::size_t i : agreeing) {
+  for (const std::size_t i : is_quorate(clear, quorum) ? clear : agreeing) {
     if (ledger_[i].state != HypothesisState::open) continue;
     ledger_[i].state = HypothesisState::accepted;
     ledger_[i].decided_by = DecidedBy::evidence;
     ledger_[i].decided_with = agreeing.back();
     ledger_[i].reason = agreeing.size() > 1 ? "agrees with others of the same passage"
                                             : "matches, and lies where the map had it already";
+    ledger_[i].reason += telling;
     accepted.push_back(i);
   }
   return accepted;
@@ -252,32 +260,6 @@ void LoopCloser::compare_with_earlier(const Map& map, const InformationGraph& gr
     const bool agrees = disagreement(around, h.T_a_b) < options_.consistent;
     (agrees ? h.supports : h.conflicts).push_back(i);
   }
-}
-
-bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const {
-  if (agreeing.size() < quorum.agreeing) return false;
-  double low = HUGE_VAL;
-  double high = -HUGE_VAL;
-  bool clear = false;
-  double contradicted = 0;
-  double merit = 0;
-  std::set<std::size_t> rivals;
-  for (const std::size_t i : agreeing) {
-    merit += merit_of(ledger_[i], options_.look_alike);
-    rivals.insert(ledger_[i].conflicts.begin(), ledger_[i].conflicts.end());
-    low = std::min(low, along_[ledger_[i].b.index()]);
-    high = std::max(high, along_[ledger_[i].b.index()]);
-    clear = clear || ledger_[i].ambiguity < options_.most_ambiguous;
-    contradicted += ledger_[i].contradicted / static_cast<double>(agreeing.size());
-  }
-  double against = 0;
-  for (const std::size_t i : rivals) {
-    double rival = merit_of(ledger_[i], options_.look_alike);
-    for (const std::size_t k : ledger_[i].supports) rival += merit_of(ledger_[k], options_.look_alike);
-    against = std::max(against, rival);
-  }
-  return clear && high - low >= quorum.way && contradicted <= options_.most_contradicted &&
-         merit > options_.outvotes * against;
 }
 
 }  // namespace helicoid

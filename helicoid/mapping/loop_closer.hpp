@@ -1,9 +1,17 @@
 // Decides when a robot has come back (paper IV-B, lazily; design 5.6): keeps the ledger and accepts what agrees.
 #pragma once
 
+#include <map>
+
 #include "helicoid/mapping/look_alike.hpp"
 
 namespace helicoid {
+
+/// The entry agreed with others, but all that was mapped spoke against them together. It supports no other any more: to
+/// be looked at once more takes as many new ones.
+[[nodiscard]] inline bool is_left_open(const Hypothesis& h) {
+  return h.state == HypothesisState::open && h.decided_by == DecidedBy::evidence;
+}
 
 struct LoopCloserOptions {
   LookAlikeOptions look_alike;
@@ -17,7 +25,8 @@ struct LoopCloserOptions {
   double least_way = 2;              ///< the robot's way over which they must extend, metres
   std::size_t least_agreeing_islands = 5;
   double least_way_islands = 8;
-  double most_ambiguous = 0.9;  ///< one at least must be clearer than this
+  double most_ambiguous = 0.9;  ///< some must be clearer than this:
+  std::size_t least_clear = 2;  ///< so many
   /// Together: share of the points that stand in what the other passage saw as free. Furniture that was moved
   /// contradicts a place here and there, a building that merely looks alike nearly everywhere.
   double most_contradicted = 0.015;
@@ -86,13 +95,17 @@ class LoopCloser {
   /// True if the operator has decided about it, or about one that says the same.
   bool follow_operator(const Map& map, std::size_t entry);
   void withhold_with(std::size_t entry, std::size_t decided);
+  /// Those from which there is a telling.
+  [[nodiscard]] std::vector<std::size_t> clear_of(const std::vector<std::size_t>& entries) const;
+  [[nodiscard]] bool is_quorate(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const;
   [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const;
   [[nodiscard]] double way_since_search(const Map& map, PatchId b) const;
-  std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing);
+  std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing, const Quorum& quorum);
 
   MapperOptions mapper_;
   LoopCloserOptions options_;
   Ledger ledger_;
+  std::map<std::size_t, std::string> told_apart_;  ///< by entry: what rules out its second-best placement, in words
   std::vector<double> along_;
   std::vector<PatchId> last_of_robot_;
   std::vector<double> searched_at_;  ///< by robot, along its way

@@ -245,7 +245,8 @@ void Mapper::decide(const Decision& decision) {
   MapInProgress progress{s.map, s.editor, s.graph};
   const std::vector<std::size_t> accepted = s.closer.decide(s.map, decision);
   if (accepted.empty()) return;
-  act_on_or_join(progress, s.closer, accepted, s.options);
+  JoinTrials trials;
+  act_on_or_join(progress, s.closer, accepted, trials, s.options);
   for (RobotState& robot : s.robots) robot.stale = true;
 }
 

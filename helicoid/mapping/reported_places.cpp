@@ -60,6 +60,7 @@ void ReportedPlaces::add(RobotId robot, RobotId there, double stamp, const Looka
 
 bool ReportedPlaces::take_placed(MapInProgress& progress, LoopCloser& closer, bool last, const MapperOptions& options) {
   bool changed = false;
+  JoinTrials trials;
   std::erase_if(waiting_, [&](const Waiting& w) {
     const std::optional<PlacedRobot> here = place_at(progress.map, w.robot, w.stamp, last);
     const std::optional<PlacedRobot> there = place_at(progress.map, w.there, w.alike.stamp, last);
@@ -70,8 +71,7 @@ bool ReportedPlaces::take_placed(MapInProgress& progress, LoopCloser& closer, bo
     const std::vector<std::size_t> accepted =
         enter(progress, closer, entry_of(there->pose, here->pose, w.alike, ground), ground, options);
     if (accepted.empty()) return true;
-    act_on_or_join(progress, closer, accepted, options);
-    changed = true;
+    changed = act_on_or_join(progress, closer, accepted, trials, options) || changed;
     return true;
   });
   return changed;

@@ -42,6 +42,28 @@ std::vector<bool> seen_through(const Map& map, std::span<const LocalPatch> views
   return inside;
 }
 
+/// The points that stand and that one of the views saw through.
+struct Contradiction {
+  double share = 0;
+  Vector2d p_points = Vector2d::Zero();  ///< their middle, in the points' frame
+};
+
+Contradiction contradiction_in(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
+                               const Pose2& T_views_points) {
+  const std::vector<bool> inside = seen_through(map, views, points, T_views_points);
+  std::size_t standing = 0, against = 0;
+  Contradiction found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points.weight[i] <= 0) continue;
+    ++standing;
+    if (!inside[i]) continue;
+    ++against;
+    found.p_points += (Vector2d(points.x[i], points.y[i]) - found.p_points) / static_cast<double>(against);
+  }
+  found.share = standing > 0 ? static_cast<double>(against) / static_cast<double>(standing) : 0.0;
+  return found;
+}
+
 }  // namespace
 
 std::vector<LocalPatch> views_of_place(const Map& map, PatchId b, std::span<const PatchId> place) {
@@ -83,18 +105,14 @@ ScanPoints standing_points(const Map& map, std::span<const LocalPatch> views) {
 }
 
 double contradicted_share(const Map& map, const TwoPlaces& places, const Pose2& T_a_b) {
-  const auto share = [&](const std::vector<LocalPatch>& views, const ScanPoints& points, const Pose2& T) {
-    const std::vector<bool> inside = seen_through(map, views, points, T);
-    std::size_t standing = 0, against = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points.weight[i] <= 0) continue;
-      ++standing;
-      against += inside[i] ? 1 : 0;
-    }
-    return standing > 0 ? static_cast<double>(against) / static_cast<double>(standing) : 0.0;
-  };
-  return std::max(share(places.views_a, places.points_b, T_a_b),
-                  share(places.views_b, places.points_a, T_a_b.inverse()));
+  return std::max(contradiction_in(map, places.views_a, places.points_b, T_a_b).share,
+                  contradiction_in(map, places.views_b, places.points_a, T_a_b.inverse()).share);
+}
+
+Vector2d middle_of_contradiction(const Map& map, const TwoPlaces& places, const Pose2& T_a_b) {
+  const Contradiction now = contradiction_in(map, places.views_a, places.points_b, T_a_b);
+  const Contradiction then = contradiction_in(map, places.views_b, places.points_a, T_a_b.inverse());
+  return now.share >= then.share ? now.p_points : T_a_b.inverse() * then.p_points;
 }
 
 }  // namespace helicoid

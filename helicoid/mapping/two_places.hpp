@@ -28,4 +28,7 @@ struct TwoPlaces {
 /// what stood there only then, and what stands there only now. What does not stand still tells nothing.
 [[nodiscard]] double contradicted_share(const Map& map, const TwoPlaces& places, const Pose2& T_a_b);
 
+/// Where that stands, in b's frame: the middle of the points of that which has the larger share of them.
+[[nodiscard]] Vector2d middle_of_contradiction(const Map& map, const TwoPlaces& places, const Pose2& T_a_b);
+
 }  // namespace helicoid

@@ -8,6 +8,10 @@ namespace helicoid {
 
 namespace {
 
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kRingRadius = 16;  // of a round corridor's middle, metres
+constexpr double kRingHalf = 1.2;   // of its width
+
 void visit(Route& route, const Room& room) {
   route.points.insert(route.points.end(), {room.before_door, room.door, room.middle, room.door, room.before_door});
 }
@@ -162,9 +166,8 @@ World make_dormitory(std::uint64_t seed) {
 }
 
 World make_rotunda(std::uint64_t seed) {
-  constexpr double kRadius = 16;
-  constexpr double kHalf = 1.2;
-  constexpr double kTurn = 2 * std::numbers::pi;
+  constexpr double kRadius = kRingRadius;
+  constexpr double kHalf = kRingHalf;
   Random random(seed);
   BuildingPlan plan;
   add_arc(plan, kRadius + kHalf, 0, kTurn, 0.3, random);
@@ -179,6 +182,28 @@ World make_rotunda(std::uint64_t seed) {
   for (int i = 0; i <= kSteps; ++i) route.points.push_back(on_circle(kRadius, kTurn * i / kSteps));
   for (int i = kSteps / 2; i < kSteps; ++i) route.points.push_back(on_circle(kRadius, kTurn * i / kSteps));
   return finished(std::move(plan), std::move(route), "rotunda");
+}
+
+World make_smooth_ring() {
+  constexpr int kCorners = 360;
+  BuildingPlan plan;
+  Route route{{}, true};
+  for (int i = 0; i < kCorners; ++i) {
+    const double from = kTurn * i / kCorners;
+    const double to = kTurn * (i + 1) / kCorners;
+    for (const double r : {kRingRadius - kRingHalf, kRingRadius + kRingHalf}) {
+      plan.line(on_circle(r, from), on_circle(r, to));
+    }
+    if (i % 8 == 0) route.points.push_back(on_circle(kRingRadius, from));
+  }
+  return finished(std::move(plan), std::move(route), "smooth ring");
+}
+
+std::vector<Segment> cupboard_in_ring(double angle) {
+  BuildingPlan plan;
+  const Vector2d at = on_circle(kRingRadius + kRingHalf - 0.25, angle);
+  plan.box({at.x(), at.y(), angle}, 0.5, 0.8);
+  return plan.walls;
 }
 
 }  // namespace helicoid

@@ -17,4 +17,9 @@ namespace helicoid {
 /// A round corridor of 100 m with niches, and a straight one across.
 [[nodiscard]] World make_rotunda(std::uint64_t seed);
 
+/// A round corridor of 100 m, smooth all the way: the same at every angle. Its start is at angle 0.
+[[nodiscard]] World make_smooth_ring();
+/// A cupboard of 0.8 x 0.5 m that stands against its outer wall at this angle, radians.
+[[nodiscard]] std::vector<Segment> cupboard_in_ring(double angle);
+
 }  // namespace helicoid
