@@ -23,7 +23,8 @@ synthetic::Builder floor_of_patches() {
   synthetic::Builder builder("robot1", 3);
   const std::vector<synthetic::Wall> walls = synthetic::rectangle(-10, -10, 100, 100);
   for (std::uint32_t i = 0; i < kAlong * kAcross; ++i) {
-    builder.add(walls, {2.0 * (i % kAlong), 2.0 * (i / kAlong), 0.01 * (i % 7)});
+    const std::uint32_t row = i / kAlong;
+    builder.add(walls, {2.0 * (i % kAlong), 2.0 * row, 0.01 * (i % 7)});
     if (i % kAlong > 0) builder.relate(PatchId{i - 1}, PatchId{i}, RelationKind::odometry);
     if (i >= kAlong) builder.relate(PatchId{i - kAlong}, PatchId{i}, RelationKind::odometry);
   }
