@@ -78,8 +78,8 @@ Experiment floors_experiment() {
       "Two floors of a hospital ward: the same walls and doors, 204 pieces of furniture from one seed, of which on the "
       "upper floor some stand elsewhere in their rooms. A robot on each sees every third room from inside; no sighting "
       "is possible. By default, and with --join evidence; twice with eight people who walk about. A floor that does "
-      "not "
-      "differ where robots saw it cannot be told from the other, and the same logs would come from one floor on which "
+      "not differ where robots saw it cannot be told from the other, and the same logs would come from one floor on "
+      "which "
       "so many pieces were moved between two visits: what evidence makes of fewer than {} pieces is reported, not "
       "judged. A proposal is an entry of the ledger between the floors; refused are those that agreed until all the "
       "ground that both robots know was laid over one another.",

@@ -21,6 +21,9 @@ struct AlignOptions {
   int min_points = 12;
 };
 
+/// Of a prior's Student t: so many degrees of freedom make it a Gaussian, which does not fade whatever the beams say.
+inline constexpr double kGaussian = 1e6;
+
 /// The defaults with what is the laser's own.
 [[nodiscard]] AlignOptions align_options(const LaserModel& laser);
 

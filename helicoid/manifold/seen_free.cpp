@@ -35,13 +35,11 @@ bool SeenFree::ends_at(const Eigen::Vector2f& p_patch, float within) const {
 }
 
 int count_contradictions(const Patch& patch, const ScanPoints& points, const Pose2& T_patch_points, double depth) {
-  const SeenFree free(patch);
-  const Eigen::Matrix2f R = T_patch_points.rotation().cast<float>();
-  const Eigen::Vector2f t = T_patch_points.translation().cast<float>();
+  const SeenFreeFrom free(patch, T_patch_points);
   int count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points.weight[i] <= 0) continue;
-    count += free.is_deep(R * Eigen::Vector2f(points.x[i], points.y[i]) + t, static_cast<float>(depth)) ? 1 : 0;
+    count += free.is_deep({points.x[i], points.y[i]}, static_cast<float>(depth)) ? 1 : 0;
   }
   return count;
 }

@@ -29,6 +29,27 @@ class SeenFree {
   Eigen::Vector2f t_laser_patch_;
 };
 
+/// The same, asked in another frame.
+class SeenFreeFrom {
+ public:
+  SeenFreeFrom(const Patch& patch, const Pose2& T_patch_asked)
+      : free_(patch),
+        R_patch_asked_(T_patch_asked.rotation().cast<float>()),
+        t_patch_asked_(T_patch_asked.translation().cast<float>()) {}
+
+  [[nodiscard]] bool is_deep(const Eigen::Vector2f& p_asked, float depth) const {
+    return free_.is_deep(R_patch_asked_ * p_asked + t_patch_asked_, depth);
+  }
+  [[nodiscard]] bool ends_at(const Eigen::Vector2f& p_asked, float within) const {
+    return free_.ends_at(R_patch_asked_ * p_asked + t_patch_asked_, within);
+  }
+
+ private:
+  SeenFree free_;
+  Eigen::Matrix2f R_patch_asked_;
+  Eigen::Vector2f t_patch_asked_;
+};
+
 /// How many of the points (with a normal, of another view) lie that deep in what the patch saw as free.
 [[nodiscard]] int count_contradictions(const Patch& patch, const ScanPoints& points, const Pose2& T_patch_points,
                                        double depth);

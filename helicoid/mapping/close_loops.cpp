@@ -46,8 +46,8 @@ double farthest_move(const Map& map, std::span<const Pose2> before) {
   return farthest;
 }
 
-/// True if an accepted hypothesis says of its places what the map says already: nothing need move for it now, and what
-/// it adds to what is known counts from the next fit on.
+/// True if an accepted hypothesis says of its places what the map says already: what lies about them is related without
+/// a fit before it.
 bool moves_nothing(const Map& map, const Hypothesis& h) {
   constexpr double kPosition = 0.03;  // metres
   constexpr double kHeading = 0.01;   // radians

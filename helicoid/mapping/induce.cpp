@@ -87,6 +87,12 @@ Induced relate_by_alignment(MapInProgress& progress, PatchId b, const LocalPatch
                     relate_to(progress, b, views, {found.T_reference_scan, information}, RelationKind::closure));
 }
 
+/// True if an older patch lies about b that b is not tied to: without one nothing can be induced.
+bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along) {
+  const std::vector<PatchId> about = older_patches_about(map, b);
+  return std::any_of(about.begin(), about.end(), [&](PatchId a) { return is_untied_ground(map, b, a, along); });
+}
+
 /// One patch of the queue: nothing if it was related to nothing.
 Induced induce_at(MapInProgress& progress, PatchId b, std::span<const double> along, const MapperOptions& options) {
   const Map& map = progress.map;
@@ -141,11 +147,6 @@ class Zipper {
 };
 
 }  // namespace
-
-bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along) {
-  const std::vector<PatchId> about = older_patches_about(map, b);
-  return std::any_of(about.begin(), about.end(), [&](PatchId a) { return is_untied_ground(map, b, a, along); });
-}
 
 std::vector<PatchId> induce(MapInProgress& progress, std::span<const PatchId> begin, std::span<const double> along,
                             const MapperOptions& options, bool with_related) {

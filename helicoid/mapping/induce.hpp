@@ -6,9 +6,6 @@
 
 namespace helicoid {
 
-/// True if an older patch lies about b that b is not tied to: without one nothing can be induced.
-[[nodiscard]] bool has_untied_ground(const Map& map, PatchId b, std::span<const double> along);
-
 /// Runs the queue from these patches on; `with_related`: and from those that they are related to. `along`: how far
 /// along its robot's way each patch was kept, metres: one patch of a stretch is enough to relate to. The patches that
 /// were newly related; none if nothing was induced.

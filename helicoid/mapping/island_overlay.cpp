@@ -15,8 +15,7 @@ enum class Looker : std::uint8_t { same_passage, same_island, other_island };
 constexpr std::size_t kLookers = 3;
 
 struct View {
-  SeenFree seen;
-  Pose2 T_view_patch;
+  SeenFreeFrom seen;  ///< by points of the patch that is looked at
   Looker looker;
 };
 
@@ -29,13 +28,13 @@ Looks& of(LooksByLooker& looks, Looker looker) {
   return looks[static_cast<std::size_t>(looker)];
 }
 
-LooksByLooker look_at(const std::vector<View>& views, const Vector2d& p_patch, const IslandOverlayOptions& options) {
+LooksByLooker look_at(const std::vector<View>& views, const Eigen::Vector2f& p_patch,
+                      const IslandOverlayOptions& options) {
   LooksByLooker looks{};
   for (const View& view : views) {
-    const Eigen::Vector2f p_view = (view.T_view_patch * p_patch).cast<float>();
-    if (view.seen.is_deep(p_view, static_cast<float>(options.deep))) {
+    if (view.seen.is_deep(p_patch, static_cast<float>(options.deep))) {
       ++of(looks, view.looker).gone;
-    } else if (view.seen.ends_at(p_view, static_cast<float>(options.surface))) {
+    } else if (view.seen.ends_at(p_patch, static_cast<float>(options.surface))) {
       ++of(looks, view.looker).there;
     }
   }
@@ -79,8 +78,8 @@ class Overlay {
   void add(const Map& map, const Patch& patch, IslandId island, const std::vector<View>& views) {
     for (std::size_t i = 0; i < patch.points.size(); ++i) {
       if (patch.points.weight[i] <= 0) continue;
-      const Vector2d p_patch(patch.points.x[i], patch.points.y[i]);
-      add(island, map.T_plane_patch(patch.id) * p_patch, look_at(views, p_patch, options_));
+      const Eigen::Vector2f p_patch(patch.points.x[i], patch.points.y[i]);
+      add(island, map.T_plane_patch(patch.id) * p_patch.cast<double>(), look_at(views, p_patch, options_));
     }
   }
   [[nodiscard]] IslandOverlay count() const {
@@ -126,7 +125,7 @@ IslandOverlay lay_over(const Map& joined, const InformationGraph& graph, const M
     bool is_shared = false;
     for (const LocalPatch& p : find_local_map(joined, graph, id, mapper)) {
       if (p.patch == id) continue;
-      views.push_back({SeenFree(joined.patch(p.patch)), p.T_anchor_patch.inverse(), looker(id, p.patch)});
+      views.push_back({SeenFreeFrom(joined.patch(p.patch), p.T_anchor_patch.inverse()), looker(id, p.patch)});
       is_shared = is_shared || views.back().looker == Looker::other_island;
     }
     if (is_shared) overlay.add(joined, joined.patch(id), apart.island_of(id), views);

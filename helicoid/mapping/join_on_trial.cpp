@@ -31,8 +31,7 @@ std::string contradiction_in_words(const IslandOverlay& overlay) {
   return fmt::format(
       "agrees with others, but laid over one another by them the islands contradict each other: at {} of {} places "
       "that both know something stood for one that was gone for the other ({:.2f} %); within one of them that is so at "
-      "{} "
-      "of {} ({:.2f} %)",
+      "{} of {} ({:.2f} %)",
       overlay.between.gone, overlay.between.places, 100 * overlay.between.share(), overlay.within.gone,
       overlay.within.places, 100 * overlay.within.share());
 }
@@ -42,8 +41,9 @@ void adopt(MapInProgress& progress, const Map& joined, const Hypothesis& h) {
   const IslandId into = joined.island_of(h.a);
   const IslandId from = progress.map.island_of(progress.map.island_of(h.a) == into ? h.b : h.a);
   progress.editor.merge_islands(into, from, Pose2{});
-  for (std::size_t i = 0; i < joined.patch_count(); ++i)
+  for (std::size_t i = 0; i < joined.patch_count(); ++i) {
     progress.editor.set_pose(make_id<PatchId>(i), joined.poses()[i]);
+  }
   for (const Relation& r : joined.relations().subspan(progress.map.relations().size())) progress.editor.add_relation(r);
 }
 

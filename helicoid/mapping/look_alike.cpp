@@ -131,7 +131,7 @@ TwoPlaces look_at(const Map& map, const InformationGraph& graph, const Candidate
   places.reference.build(reference_parts(map, places.views_a));
   places.align = align_options(map.patch(place.b).laser);
   // The map's own word is no odometry's: what the surfaces leave open stays where the map has it.
-  places.align.prior_freedom = 1e6;
+  places.align.prior_freedom = kGaussian;
   places.align.kappa *= static_cast<double>(place.views.size());
   return places;
 }

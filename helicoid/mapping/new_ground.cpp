@@ -57,8 +57,8 @@ UncoveredShare uncovered_share(const Map& map, const LocalMap& local, const Pose
   for (int beam = stride / 2; beam < laser.beams; beam += stride) {
     const Vector2d direction(extractor.beams().cosine[beam], extractor.beams().sine[beam]);
     const double radius = radii[beam];
+    if (radius <= 0) continue;
     for (const double share : kShares) {
-      if (radius <= 0) continue;
       const bool covered = is_covered(share * radius * direction);
       all.add(share * radius * radius, covered);
       const bool is_near = radius <= kNear;

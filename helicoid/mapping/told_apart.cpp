@@ -15,8 +15,7 @@ std::string difference_in_words(const Map& map, const TwoPlaces& places, const J
   const Vector2d p = middle_of_contradiction(map, places, second.T_a_b);
   return fmt::format(
       "a placement {:.1f} m aside is ruled out by what stands about {:.1f} m away, {:.0f} deg to the {}: {:.0f} % of "
-      "what "
-      "is seen speaks against it",
+      "what is seen speaks against it",
       apart.distance(), p.norm(), std::abs(degrees(std::atan2(p.y(), p.x()))), p.y() >= 0 ? "left" : "right",
       100 * second.contradicted);
 }

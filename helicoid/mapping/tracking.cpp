@@ -11,8 +11,6 @@ namespace helicoid {
 
 namespace {
 
-/// So many degrees of freedom make the prior's Student t a Gaussian: it does not fade.
-constexpr double kBelieved = 1e6;
 /// True if a match lies elsewhere than odometry can well be off by.
 bool contradicts_place(const Alignment& alignment, const PosePrior& prior) {
   constexpr double kChi2 = 13.82;  // 99.9 % at two degrees of freedom
@@ -59,7 +57,7 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
   }
   if (alignment.usable() && contradicts_place(alignment, prior)) {
     AlignOptions held = align;
-    held.prior_freedom = kBelieved;
+    held.prior_freedom = kGaussian;
     const Alignment other = align_scan(robot.reference, points, prior, held);
     if (other.usable() &&
         is_told_by_one_thing(robot.reference, points, other.T_reference_scan, alignment.T_reference_scan)) {

@@ -13,33 +13,47 @@ constexpr std::size_t kPlacePoints = 700;
 /// A point this far within free space contradicts it, metres.
 constexpr float kDeep = 0.35F;
 
-/// A view's free space, asked in b's frame.
-struct FreeFrom {
-  SeenFree seen_free;
-  Eigen::Matrix2f R_view_b;
-  Eigen::Vector2f t_view_b;
-
-  [[nodiscard]] bool is_deep(const Eigen::Vector2f& p_b) const {
-    return seen_free.is_deep(R_view_b * p_b + t_view_b, kDeep);
-  }
-};
-
 /// Which points (in b's frame) lie deep in free space of one of the views.
 std::vector<bool> seen_through(const Map& map, std::span<const LocalPatch> views, const ScanPoints& points,
                                const Pose2& T_a_b) {
-  std::vector<FreeFrom> from;
+  std::vector<SeenFreeFrom> from;
   from.reserve(views.size());
   for (const LocalPatch& view : views) {
-    const Pose2 T_view_b = view.T_anchor_patch.inverse() * T_a_b;
-    from.push_back(
-        {SeenFree(map.patch(view.patch)), T_view_b.rotation().cast<float>(), T_view_b.translation().cast<float>()});
+    from.emplace_back(map.patch(view.patch), view.T_anchor_patch.inverse() * T_a_b);
   }
   std::vector<bool> inside(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector2f p_b(points.x[i], points.y[i]);
-    inside[i] = std::any_of(from.begin(), from.end(), [&](const FreeFrom& view) { return view.is_deep(p_b); });
+    inside[i] =
+        std::any_of(from.begin(), from.end(), [&](const SeenFreeFrom& view) { return view.is_deep(p_b, kDeep); });
   }
   return inside;
+}
+
+/// The points of views, in the frame that these are given in.
+ScanPoints points_of(const Map& map, std::span<const LocalPatch> views) {
+  std::size_t all = 0;
+  for (const LocalPatch& view : views) all += map.patch(view.patch).points.size();
+  const std::size_t stride = std::max<std::size_t>(1, all / kPlacePoints);
+  ScanPoints place;
+  for (const LocalPatch& view : views) {
+    const Eigen::Matrix2f rotation = view.T_anchor_patch.rotation().cast<float>();
+    const Eigen::Vector2f offset = view.T_anchor_patch.translation().cast<float>();
+    const ScanPoints& points = map.patch(view.patch).points;
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+      if (points.weight[i] <= 0) continue;
+      const Eigen::Vector2f p = rotation * Eigen::Vector2f(points.x[i], points.y[i]) + offset;
+      const Eigen::Vector2f n = rotation * Eigen::Vector2f(points.nx[i], points.ny[i]);
+      place.x.push_back(p.x());
+      place.y.push_back(p.y());
+      place.nx.push_back(n.x());
+      place.ny.push_back(n.y());
+      place.weight.push_back(points.weight[i]);
+      place.facing.push_back(points.facing[i]);
+      place.beam.push_back(points.beam[i]);
+    }
+  }
+  return place;
 }
 
 /// The points that stand and that one of the views saw through.
@@ -70,31 +84,6 @@ std::vector<LocalPatch> views_of_place(const Map& map, PatchId b, std::span<cons
   std::vector<LocalPatch> views;
   for (const PatchId id : place) views.push_back({id, map.T_plane_patch(b).inverse() * map.T_plane_patch(id)});
   return views;
-}
-
-ScanPoints points_of(const Map& map, std::span<const LocalPatch> views) {
-  std::size_t all = 0;
-  for (const LocalPatch& view : views) all += map.patch(view.patch).points.size();
-  const std::size_t stride = std::max<std::size_t>(1, all / kPlacePoints);
-  ScanPoints place;
-  for (const LocalPatch& view : views) {
-    const Eigen::Matrix2f rotation = view.T_anchor_patch.rotation().cast<float>();
-    const Eigen::Vector2f offset = view.T_anchor_patch.translation().cast<float>();
-    const ScanPoints& points = map.patch(view.patch).points;
-    for (std::size_t i = 0; i < points.size(); i += stride) {
-      if (points.weight[i] <= 0) continue;
-      const Eigen::Vector2f p = rotation * Eigen::Vector2f(points.x[i], points.y[i]) + offset;
-      const Eigen::Vector2f n = rotation * Eigen::Vector2f(points.nx[i], points.ny[i]);
-      place.x.push_back(p.x());
-      place.y.push_back(p.y());
-      place.nx.push_back(n.x());
-      place.ny.push_back(n.y());
-      place.weight.push_back(points.weight[i]);
-      place.facing.push_back(points.facing[i]);
-      place.beam.push_back(points.beam[i]);
-    }
-  }
-  return place;
 }
 
 ScanPoints standing_points(const Map& map, std::span<const LocalPatch> views) {

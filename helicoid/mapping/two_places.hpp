@@ -11,9 +11,8 @@ namespace helicoid {
 
 /// Patches as seen from b.
 [[nodiscard]] std::vector<LocalPatch> views_of_place(const Map& map, PatchId b, std::span<const PatchId> place);
-/// The points of views in the frame that these are given in; some hundred at most.
-[[nodiscard]] ScanPoints points_of(const Map& map, std::span<const LocalPatch> views);
-/// What stood still while the views were taken: what one of them saw through weighs nothing.
+/// The points of views in the frame that these are given in, some hundred at most. Only what stood still while they
+/// were taken has weight: nothing that one of them saw through.
 [[nodiscard]] ScanPoints standing_points(const Map& map, std::span<const LocalPatch> views);
 
 /// What is compared: what was seen about b, and what was seen about a.
