@@ -50,15 +50,16 @@ std::vector<Result<Outcome>> run_jobs(const std::vector<Job>& jobs, int threads,
   return results;
 }
 
-const Bar* find_bar(const Experiment& experiment, const std::string& metric) {
-  const auto bar =
-      std::find_if(experiment.bars.begin(), experiment.bars.end(), [&](const Bar& b) { return b.metric == metric; });
+/// The bar that judges a metric in this form of the experiment; null: none.
+const Bar* find_bar(const Experiment& experiment, bool quick, const std::string& metric) {
+  const auto bar = std::find_if(experiment.bars.begin(), experiment.bars.end(),
+                                [&](const Bar& b) { return b.metric == metric && !(quick && b.of_clock); });
   return bar != experiment.bars.end() ? &*bar : nullptr;
 }
 
-bool passes(const Experiment& experiment, const Outcome& outcome) {
+bool passes(const Experiment& experiment, bool quick, const Outcome& outcome) {
   return std::all_of(outcome.metrics.begin(), outcome.metrics.end(), [&](const Metric& m) {
-    const Bar* bar = find_bar(experiment, m.name);
+    const Bar* bar = find_bar(experiment, quick, m.name);
     return bar == nullptr || bar->of_mean || bar->holds(m.value);
   });
 }
@@ -76,12 +77,12 @@ void add(MetricSummary& summary, double value) {
   summary.mean += value;  // the sum, until all runs are in
 }
 
-void summarise(const Experiment& experiment, ExperimentReport& report) {
+void summarise(const Experiment& experiment, bool quick, ExperimentReport& report) {
   for (const ExperimentRun& run : report.runs) {
     for (const Metric& m : run.outcome.metrics) {
       for (const std::string& name : {run.case_name, std::string()}) {
         MetricSummary& summary = entry(name.empty() ? report.overall : report.by_case, m.name, name);
-        summary.bar = find_bar(experiment, m.name);
+        summary.bar = find_bar(experiment, quick, m.name);
         add(summary, m.value);
         if (summary.bar != nullptr && !summary.bar->of_mean && !summary.bar->holds(m.value)) summary.passed = false;
       }
@@ -112,10 +113,10 @@ Result<ExperimentReport> run_experiment(const Experiment& experiment, const Expe
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const std::string& name = jobs[i].what->name;
     if (!results[i]) return fail("{}, seed {}: {}", name, jobs[i].seed, results[i].error().message);
-    const bool passed = passes(experiment, *results[i]);
+    const bool passed = passes(experiment, options.quick, *results[i]);
     report.runs.push_back({jobs[i].seed, name, std::move(*results[i]), passed});
   }
-  summarise(experiment, report);
+  summarise(experiment, options.quick, report);
   return report;
 }
 

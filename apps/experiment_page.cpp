@@ -106,7 +106,8 @@ std::string describe(const Bar* bar) {
                      : bar->at_most                ? fmt::format("at most {:g}", *bar->at_most)
                      : bar->at_least               ? fmt::format("at least {:g}", *bar->at_least)
                                                    : "";
-  return bar->of_mean ? text + ", the mean" : text;
+  if (bar->of_mean) text += ", the mean";
+  return bar->of_clock ? text + ", by the clock" : text;
 }
 
 Json to_json(const Experiment& experiment, const ExperimentOptions& options, const ExperimentReport& report) {

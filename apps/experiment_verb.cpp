@@ -89,7 +89,7 @@ void add_experiment_verb(CLI::App& program, int& exit_code) {
   verb->add_option("NAME", a->name, fmt::format("list, or one of: {}", names()))->required();
   verb->add_option("--seeds", a->options.seeds, "seeds 1 to N of each simulated case; default: as the experiment asks")
       ->check(CLI::Range(1, 100000));
-  verb->add_flag("--quick", a->options.quick, "a short form, under 20 s");
+  verb->add_flag("--quick", a->options.quick, "a short form, under 20 s; what a clock measures is shown, not judged");
   verb->add_option("--data", a->options.data, "the folder of recorded data; cases that need it are skipped without it");
   verb->add_option("--threads", a->options.threads, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 64))

@@ -79,6 +79,13 @@ TEST(Experiment, ABarOnTheMeanIsJudgedCaseByCase) {
   EXPECT_FALSE(report->passed);
 }
 
+TEST(Experiment, AClocksBarIsJudgedInTheWholeFormAlone) {
+  Experiment e = counting();
+  e.bars = {{"way_m", std::nullopt, 0.5, false, true}};
+  EXPECT_FALSE(run_experiment(e, {})->passed);
+  EXPECT_TRUE(run_experiment(e, {0, true, "", 1})->passed);
+}
+
 TEST(Experiment, NotANumberPassesNoBar) {
   const Bar bar{"way_m", std::nullopt, 1.0, false};
   EXPECT_FALSE(bar.holds(NAN));

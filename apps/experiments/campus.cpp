@@ -232,9 +232,9 @@ Experiment campus_experiment() {
       "with poses that are off by 2 cm and 2 mrad. Memory is the process's, at the end. A scan may cost a tenth more "
       "than alone: caches are shared with a larger map.";
   e.bars = {{"memory_gib", std::nullopt, 6.0, false},
-            {"scan_cost_ratio", std::nullopt, 1.1, false},
-            {"closure_cost_slope", std::nullopt, 1.2, false},
-            {"full_fit_s", std::nullopt, 10.0, false}};
+            {"scan_cost_ratio", std::nullopt, 1.1, false, true},
+            {"closure_cost_slope", std::nullopt, 1.2, false, true},
+            {"full_fit_s", std::nullopt, 10.0, false, true}};
   e.seeds = 1;
   e.quick_seeds = 1;
   e.cases = [](const ExperimentOptions& options) {

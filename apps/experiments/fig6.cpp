@@ -119,7 +119,7 @@ Experiment fig6_experiment() {
             {"mapped_percent", 99.0, std::nullopt, false},
             {"operator_actions_count", std::nullopt, 0.0, false},
             {"collisions_count", std::nullopt, 0.0, false},
-            {"realtime_ratio", 1.0, std::nullopt, false},
+            {"realtime_ratio", 1.0, std::nullopt, false, true},
             {"wall_rms_m", std::nullopt, 0.05, false},
             {"wall_recall_percent", 97.0, std::nullopt, false}};
   e.seeds = 10;

@@ -190,10 +190,10 @@ Experiment spiral_experiment() {
             {"sheets_count", std::nullopt, 1.0, false},
             {"related_percent", 100.0, std::nullopt, false},
             {"walls_rms_m", std::nullopt, 0.03, false},
-            {"collapse_cpu_s", std::nullopt, 1.0, false},
-            {"after_collapse_cost_ratio", std::nullopt, 1.05, true},
+            {"collapse_cpu_s", std::nullopt, 1.0, false, true},
+            {"after_collapse_cost_ratio", std::nullopt, 1.05, true, true},
             {"patches_growth_percent", std::nullopt, 2.0, false},
-            {"later_laps_cost_ratio", std::nullopt, 1.05, true}};
+            {"later_laps_cost_ratio", std::nullopt, 1.05, true, true}};
   e.seeds = 10;
   e.quick_seeds = 1;
   e.cases = [](const ExperimentOptions&) {

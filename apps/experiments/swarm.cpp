@@ -208,7 +208,7 @@ Experiment swarm_experiment() {
       "mapper's CPU time, its last fit included, over the time that the team drove: 100 percent is one core of two. A "
       "scan's time is the CPU time of its whole step, with all that it set off; its growth is the last fifth of the "
       "scans over the second. Ten robots for comparison.";
-  e.bars = {{"mapping_load_percent", std::nullopt, 200.0, false},
+  e.bars = {{"mapping_load_percent", std::nullopt, 200.0, false, true},
             {"islands_count", std::nullopt, 1.0, false},
             {"missing_relations_count", std::nullopt, 0.0, false}};
   e.seeds = 10;
