@@ -55,6 +55,15 @@ bool moves_nothing(const Map& map, const Hypothesis& h) {
   return off.distance() < kPosition && std::abs(off.yaw) < kHeading;
 }
 
+/// What comes of comparing an older patch's place once more.
+std::vector<std::size_t> look_again(const MapInProgress& progress, LoopCloser& closer, PatchId b,
+                                    const MapperOptions& options) {
+  if (!closer.is_due_again(progress.map, b)) return {};
+  const LocalMap known = find_local_map(progress.map, progress.graph, b, options);
+  if (!has_unknown_ground(progress.map, b, known, closer.along(), closer.reach_again())) return {};
+  return closer.observe_again(progress.map, progress.graph, b, known);
+}
+
 }  // namespace
 
 void act_on(MapInProgress& progress, const LoopCloser& closer, std::span<const std::size_t> entries,
@@ -90,23 +99,27 @@ bool close_loops(MapInProgress& progress, LoopCloser& closer, PatchId b, const L
 }
 
 void close_loops_again(MapInProgress& progress, LoopCloser& closer, const MapperOptions& options) {
-  constexpr int kPasses = 4;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    closer.start_again(progress.map);
-    std::vector<std::size_t> accepted;
-    for (std::size_t i = 0; i < progress.map.patch_count(); ++i) {
-      const PatchId b = make_id<PatchId>(i);
-      if (!closer.is_due_again(progress.map, b)) continue;
-      const LocalMap known = find_local_map(progress.map, progress.graph, b, options);
-      if (!has_unknown_ground(progress.map, b, known, closer.along(), closer.reach_again())) continue;
-      const std::vector<std::size_t> now = closer.observe_again(progress.map, progress.graph, b, known);
-      accepted.insert(accepted.end(), now.begin(), now.end());
-    }
-    if (accepted.empty()) return;
-    const std::vector<Pose2> before(progress.map.poses().begin(), progress.map.poses().end());
-    act_on(progress, closer, accepted, options);
-    if (farthest_move(progress.map, before) < options.reference_position) return;
+  constexpr std::size_t kPasses = 4;
+  const Map& map = progress.map;
+  const std::size_t patches = map.patch_count();
+  std::vector<std::size_t> waiting;
+  // What a closure moves may be seen in another light: it ends when nothing has moved since each patch was looked at.
+  std::size_t looked_since_move = 0;
+  for (std::size_t looked = 0; looked < kPasses * patches && looked_since_move < patches; ++looked) {
+    if (looked % patches == 0) closer.start_again(map);
+    ++looked_since_move;
+    const std::vector<std::size_t> now = look_again(progress, closer, make_id<PatchId>(looked % patches), options);
+    waiting.insert(waiting.end(), now.begin(), now.end());
+    // What moves the map is acted on at once: from there on fewer ways are left in which places may lie.
+    const bool moves = std::any_of(now.begin(), now.end(),
+                                   [&](std::size_t entry) { return !moves_nothing(map, closer.ledger()[entry]); });
+    if (!moves) continue;
+    const std::vector<Pose2> before(map.poses().begin(), map.poses().end());
+    act_on(progress, closer, waiting, options);
+    waiting.clear();
+    if (farthest_move(map, before) >= options.reference_position) looked_since_move = 0;
   }
+  if (!waiting.empty()) act_on(progress, closer, waiting, options);
 }
 
 }  // namespace helicoid
