@@ -91,15 +91,15 @@ JointInformation joint_information(const InformationGraph& graph, std::span<cons
   JointInformation H(known, tied.size() - known);
   for (std::size_t i = 0; i < tied.size(); ++i) {
     const Pose2 T_b_ref = candidates[tied[i]].relative.T_a_b.inverse();
+    const Matrix2d R_b_ref = T_b_ref.rotation();
     Matrix3d by_other = Matrix3d::Identity();
-    by_other.topLeftCorner<2, 2>() = T_b_ref.rotation();
+    by_other.topLeftCorner<2, 2>() = R_b_ref;
     for (const InformationGraph::Edge& edge : graph.edges(candidates[tied[i]].pose)) {
       const std::int32_t j = place[edge.to];
       // d T_b_other / d T_ref_b; each pair is seen from both of its ends, and each end adds its own block.
       if (j == PoseMarks::kNone) continue;
-      const Vector2d p_b_other =
-          j == kReference ? T_b_ref.translation()
-                          : T_b_ref * candidates[tied[static_cast<std::size_t>(j)]].relative.T_a_b.translation();
+      Vector2d p_b_other = T_b_ref.translation();
+      if (j >= 0) p_b_other += R_b_ref * candidates[tied[static_cast<std::size_t>(j)]].relative.T_a_b.translation();
       Matrix3d by_self = -by_other;
       by_self(0, 2) = p_b_other.y();
       by_self(1, 2) = -p_b_other.x();

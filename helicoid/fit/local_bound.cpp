@@ -34,10 +34,13 @@ Matrix3d noise_floor(double position, double heading) {
 
 Matrix3d with_noise_floor(const UncertainPose2& ab, const Matrix3d& floor_a, const Matrix3d& floor_b) {
   // a's own error moves b by its lever; b's adds as it is, since it is the same in all directions.
-  Matrix3d lever = Matrix3d::Identity();
-  lever(0, 2) = -ab.T_a_b.y;
-  lever(1, 2) = ab.T_a_b.x;
-  return ab.covariance + transport(lever, floor_a) + floor_b;
+  const Vector2d lever(-ab.T_a_b.y, ab.T_a_b.x);
+  Matrix3d result = ab.covariance + floor_a + floor_b;
+  const Vector2d by_turn = floor_a.topRightCorner<2, 1>() + 0.5 * floor_a(2, 2) * lever;
+  result.topLeftCorner<2, 2>() += lever * by_turn.transpose() + by_turn * lever.transpose();
+  result.topRightCorner<2, 1>() += floor_a(2, 2) * lever;
+  result.bottomLeftCorner<1, 2>() += floor_a(2, 2) * lever.transpose();
+  return result;
 }
 
 std::uint32_t InformationGraph::add_pose() {

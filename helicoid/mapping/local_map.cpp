@@ -161,7 +161,10 @@ LocalMap distinct_places(const LocalMap& local, PatchId last_kept) {
   std::vector<Pose2> places;
   for (const std::size_t i : oldest_first) {
     const Pose2& T = local[i].T_anchor_patch;
-    const auto same = [&](const Pose2& place) { return view_distance(place, T) < kNearEnough; };
+    const auto same = [&](const Pose2& place) {
+      const bool is_near = std::abs(place.x - T.x) < kNearEnough && std::abs(place.y - T.y) < kNearEnough;
+      return is_near && view_distance(place, T) < kNearEnough;
+    };
     is_distinct[i] = std::none_of(places.begin(), places.end(), same);
     if (is_distinct[i]) places.push_back(T);
   }
@@ -231,9 +234,11 @@ std::vector<LocalPatch> select_views(const Map& map, const LocalMap& local, cons
                     : view_distance(local[k].T_anchor_patch, T_anchor_robot);
     };
     std::size_t best = local.size();
+    double first = HUGE_VAL;
     for (std::size_t i = 0; i < local.size(); ++i) {
-      if (gain[i] < enough) continue;
-      if (best == local.size() || order(i) < order(best)) best = i;
+      if (gain[i] < enough || order(i) >= first) continue;
+      first = order(i);
+      best = i;
     }
     take(best);
   }
