@@ -21,7 +21,6 @@ constexpr int kStandStill = 8;            // ticks after which a robot has stopp
 
 struct Course {
   std::string world;
-  MapperOptions mapper;
   double first_s = 30;  ///< explored before the first traverse: at least and at most
   double last_s = 400;
   std::size_t traverses = 50;
@@ -136,7 +135,14 @@ double worst_off(const Tally& tally) {
   return worst;
 }
 
-Outcome summary(const World& world, const CourseResult& result) {
+void add(CourseResult& all, CourseResult result) {
+  for (Traverse& t : result.manifold.all) all.manifold.add(std::move(t));
+  for (Traverse& t : result.planar.all) all.planar.add(std::move(t));
+  all.with_sheets += result.with_sheets;
+  all.lost_returns += result.lost_returns;
+}
+
+Outcome summary(const CourseResult& result) {
   const Tally& m = result.manifold;
   const Tally& p = result.planar;
   const auto count = static_cast<double>(m.all.size());
@@ -162,23 +168,38 @@ Outcome summary(const World& world, const CourseResult& result) {
                    {"planar_without_plan_count", p.count(TraverseEnd::no_plan)},
                    {"planar_late_count", p.count(TraverseEnd::late)}},
                   {}};
-  if (result.showpiece) {
-    const std::array<TrueTrack, 2> tracks{TrueTrack{"on the manifold", {}, result.showpiece->by_manifold},
-                                          TrueTrack{"on a planar grid", {}, result.showpiece->by_plane}};
-    outcome.pictures.push_back({"retro-traverse-" + world.name, draw_world(world, tracks)});
-  }
   return outcome;
 }
 
-Result<Outcome> run_course(const Course& course, std::uint64_t seed) {
-  const Result<World> world = load_world(course.world);
-  if (!world) return tl::unexpected(world.error());
-  Chauffeur chauffeur(world->routes.front());
+ExperimentPicture draw(const World& world, const Showpiece& showpiece) {
+  const std::array<TrueTrack, 2> tracks{TrueTrack{"on the manifold", {}, showpiece.by_manifold},
+                                        TrueTrack{"on a planar grid", {}, showpiece.by_plane}};
+  return {world.name, draw_world(world, tracks)};
+}
+
+Result<CourseResult> run_course(const World& world, const Course& course, std::uint64_t seed) {
+  Chauffeur chauffeur(world.routes.front());
   LiveOptions live;
   live.seed = seed;
-  Result<LiveMapping> mapping = LiveMapping::make(*world, {LiveRobot{chauffeur.T_world_start()}}, live, course.mapper);
+  Result<LiveMapping> mapping = LiveMapping::make(world, {LiveRobot{chauffeur.T_world_start()}}, live, {});
   if (!mapping) return tl::unexpected(mapping.error());
-  return summary(*world, Run(course, std::move(chauffeur), std::move(*mapping), seed).drive());
+  return Run(course, std::move(chauffeur), std::move(*mapping), seed).drive();
+}
+
+Result<Outcome> run_courses(const std::vector<Course>& courses, std::uint64_t seed) {
+  CourseResult all;
+  std::vector<ExperimentPicture> pictures;
+  for (const Course& course : courses) {
+    const Result<World> world = load_world(course.world);
+    if (!world) return tl::unexpected(world.error());
+    Result<CourseResult> result = run_course(*world, course, seed);
+    if (!result) return tl::unexpected(result.error());
+    if (result->showpiece) pictures.push_back(draw(*world, *result->showpiece));
+    add(all, std::move(*result));
+  }
+  Outcome outcome = summary(all);
+  outcome.pictures = std::move(pictures);
+  return outcome;
 }
 
 }  // namespace
@@ -188,31 +209,27 @@ Experiment retro_traverse_experiment() {
   e.name = "retro-traverse";
   e.question = "Does a robot get back to wherever it was before, whatever sheets its map has?";
   e.method =
-      "A robot explores a building along a route; at random times it breaks off, is sent to three places in turn, each "
-      "drawn uniformly from the scans that it has taken so far, and goes back to where it broke off. The map grows and "
-      "closes loops all the while. Arrived: the robot says so, truly stands within 0.30 m of where that scan was taken "
-      "and has touched nothing, within three times the time that its limits let it take for the first route (its "
-      "length "
-      "at top speed and its bends at top turn rate). Before every second row of traverses it explores on, four minutes "
-      "at most, until the map has more than one sheet. Planar: the same from the same state, on one occupancy grid of "
-      "5 cm of all patches at the same poses: the way of least cost by the same law that keeps the same clearance "
-      "(A*), "
-      "pulled taut, with the same follower and avoidance, and planned again whenever the robot is blocked.";
+      "A robot explores a building along a route (the office, the loop corridor and the bare corridor in turn, each "
+      "with a map of its own); at random times it breaks off, is sent to three places in turn, each drawn uniformly "
+      "from the scans that it has taken so far, and goes back to where it broke off. The map grows and closes loops "
+      "all the while. Arrived: the robot says so, truly stands within 0.30 m of where that scan was taken and has "
+      "touched nothing, within three times the time that its limits let it take for the first route (its length at "
+      "top speed and its bends at top turn rate). Before every second row of traverses it explores on, four minutes "
+      "at most, until the map has more than one sheet. Planar: the same from the same state, on one occupancy grid "
+      "of 5 cm of all patches at the same poses: the way of least cost by the same law that keeps the same "
+      "clearance (A*), pulled taut, with the same follower and avoidance, and planned again whenever the robot is "
+      "blocked.";
   e.bars = {{"arrived_percent", 100.0, std::nullopt, false},
             {"with_sheets_percent", 33.3, std::nullopt, true},
             {"collisions_count", std::nullopt, 0.0, false}};
   e.seeds = 20;
   e.quick_seeds = 1;
   e.cases = [](const ExperimentOptions& options) {
-    const std::size_t many = options.quick ? 3 : 36;
-    const std::size_t few = options.quick ? 3 : 15;
-    return std::vector<ExperimentCase>{{"office", true, "",
-                                        [=](std::uint64_t seed) {
-                                          return run_course({"office", {}, 60, 400, many}, seed);
-                                        }},
-                                       {"loop", true, "", [=](std::uint64_t seed) {
-                                          return run_course({"loop", {}, 30, 150, few}, seed);
-                                        }}};
+    const std::vector<Course> quick{{"office", 60, 400, 3}, {"loop", 30, 150, 3}};
+    const std::vector<Course> whole{{"office", 60, 400, 36}, {"loop", 30, 150, 9}, {"corridor", 30, 400, 6}};
+    const std::vector<Course>& courses = options.quick ? quick : whole;
+    return std::vector<ExperimentCase>{
+        {"traverses", true, "", [=](std::uint64_t seed) { return run_courses(courses, seed); }}};
   };
   return e;
 }
