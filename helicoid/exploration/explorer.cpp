@@ -45,15 +45,6 @@ std::string why_closed(const Frontier& frontier) {
   return frontier.status == FrontierStatus::unreachable ? "no way there" : "looked at or tried in vain";
 }
 
-/// The rows of robots that are free; infinite elsewhere.
-Eigen::MatrixXd ways_of_free(const Eigen::MatrixXd& way, std::span<const std::uint8_t> is_free) {
-  Eigen::MatrixXd free = way;
-  for (Eigen::Index r = 0; r < free.rows(); ++r) {
-    if (is_free[static_cast<std::size_t>(r)] == 0) free.row(r).setConstant(std::numeric_limits<double>::infinity());
-  }
-  return free;
-}
-
 /// How many of each reason, the most telling first: "opening of 0.31 m", "2 x no way there".
 std::string summary_of(std::span<const FrontierLeft> left) {
   std::vector<std::pair<std::string, int>> counts;
@@ -98,6 +89,8 @@ TeamPlan Explorer::plan(double now, const Map& map, const Neighbours& neighbours
   }
   sort_out_frontiers(s, neighbours, plan);
   plan.settled = desk_.step(now, map, members, travel, doubts);
+  for (const Settled& settled : plan.settled)
+    ++(settled.outcome == MeetingOutcome::met ? meetings_.met : meetings_.absent);
   obey(s, plan);
   spare_batteries(s, plan);
   keep_meetings(s, plan);
@@ -168,32 +161,6 @@ bool Explorer::is_known(const Map& map, const Doubt& doubt) const {
   return map.island_of(doubt.a) == map.island_of(doubt.b) && finder_.edges().same_sheet(doubt.a, doubt.b);
 }
 
-/// By expected gain: if the places are one, what lies beyond either of them need not be looked at from the other's
-/// side. Between two islands that is all that is open on either: neither knows what the other has seen.
-bool Explorer::is_worth_meeting(const Situation& s, const Doubt& doubt, const Pairing& pair) const {
-  if (s.frontiers.empty()) return true;
-  double saved_m2 = 0;
-  const bool between_islands = s.map.island_of(doubt.a) != s.map.island_of(doubt.b);
-  for (const Frontier& frontier : s.frontiers) {
-    for (const PatchId place : {doubt.a, doubt.b}) {
-      const Vector2d apart = project(s.map, frontier.middle) - s.map.T_plane_patch(place).translation();
-      const bool near = between_islands || apart.norm() <= options_.doubt_reach;
-      if (near && s.map.island_of(place) == frontier.island)
-        saved_m2 += 0.5 * std::min(frontier.gain_m2, options_.assignment.most_gain);
-    }
-  }
-  const auto worth_exploring = [&](std::span<const std::uint8_t> is_free) {
-    const Eigen::MatrixXd way = ways_of_free(s.way, is_free);
-    const Choice nobody(s.members.size());
-    const Choice chosen = assign_frontiers(s.frontiers, way, nobody, options_.assignment);
-    return team_value(s.frontiers, way, nobody, chosen, options_.assignment);
-  };
-  std::vector<std::uint8_t> others = s.is_free;
-  others[pair.watcher] = others[pair.shown] = 0;
-  const double gain = options_.assignment.metres_per_m2 * saved_m2 - pair.ways;
-  return worth_exploring(others) + gain >= worth_exploring(s.is_free);
-}
-
 void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
   if (!options_.meet) return;
   // Anybody who can reach b's place stands for all: whether there is a place at all.
@@ -215,7 +182,10 @@ void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
     const std::optional<Posts> posts = find_posts(s.map, doubt, to_b, options_.rendezvous);
     if (!posts || posts->chance < options_.rendezvous.sure) continue;
     const std::optional<Pairing> pair = choose_pair(*posts, doubt, s.travel, s.is_free);
-    if (!pair || !is_worth_meeting(s, doubt, *pair)) continue;
+    if (!pair) continue;
+    const double likelihood = likelihood_of(s.map, doubt, s.doubts, desk_, meetings_);
+    const TeamAtWork team{s.frontiers, s.way, s.is_free};
+    if (!is_worth_meeting(s.map, doubt, likelihood, *pair, team, options_.assignment, options_.meeting_worth)) continue;
     desk_.begin(s.now, s.map, doubt, *posts, *pair, s.members);
     keep_meetings(s, plan);
   }

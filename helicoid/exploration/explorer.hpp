@@ -7,6 +7,7 @@
 
 #include "helicoid/exploration/frontiers.hpp"
 #include "helicoid/exploration/look_memory.hpp"
+#include "helicoid/exploration/meeting_worth.hpp"
 #include "helicoid/exploration/orders.hpp"
 #include "helicoid/exploration/rendezvous.hpp"
 #include "helicoid/exploration/team.hpp"
@@ -19,9 +20,9 @@ struct ExplorerOptions {
   AssignmentOptions assignment;
   LookMemoryOptions looks;
   RendezvousOptions rendezvous;
+  MeetingWorthOptions meeting_worth;
   bool coordinated = true;          ///< false: each robot goes to its nearest frontier, whatever the others do
   bool meet = true;                 ///< doubts are settled by rendezvous
-  double doubt_reach = 10;          ///< frontiers so near to a doubt's places may show what is known already, metres
   int doubts_a_plan = 4;            ///< that a meeting is thought of for
   double metres_per_charge = 2000;  ///< a full battery drives so far
   double battery_reserve = 0.10;    ///< of a charge, left when a robot is home
@@ -74,7 +75,6 @@ class Explorer {
   void spare_batteries(Situation& s, TeamPlan& plan);
   void keep_meetings(Situation& s, TeamPlan& plan) const;
   void arrange_meetings(Situation& s, TeamPlan& plan);
-  bool is_worth_meeting(const Situation& s, const Doubt& doubt, const Pairing& pair) const;
   [[nodiscard]] bool is_known(const Map& map, const Doubt& doubt) const;
   void assign(Situation& s, TeamPlan& plan);
   void go_home(Situation& s, TeamPlan& plan);
@@ -85,6 +85,7 @@ class Explorer {
   OrderBook orders_;
   LookMemory looks_;
   RendezvousDesk desk_;
+  MeetingRecord meetings_;
   std::size_t doubt_turn_ = 0;     ///< where the next plan begins to think of doubts
   std::vector<RobotId> recalled_;  ///< their batteries were low
   double nearest_home_ = 0;        ///< the sum of the ways home, at its least since returning

@@ -101,6 +101,9 @@ class RendezvousDesk {
   /// True if it will be tried again.
   [[nodiscard]] bool is_resting(double now, const Doubt& doubt) const;
 
+  /// True if one answer is that to both: they are about the same places, or would join two islands alike.
+  [[nodiscard]] bool asks_the_same(const Map& map, const Doubt& a, const Doubt& b) const;
+
  private:
   struct Past {
     Doubt doubt;
@@ -115,7 +118,6 @@ class RendezvousDesk {
   /// Robots that saw each other, these or others, have joined the islands of the two places: the map tells.
   [[nodiscard]] std::optional<Settled> judge_by_join(const Map& map, const Meeting& meeting) const;
   Past& past_of(const Doubt& doubt);
-  [[nodiscard]] bool asks_the_same(const Map& map, const Doubt& a, const Doubt& b) const;
 
   RendezvousOptions options_;
   std::vector<Meeting> meetings_;

@@ -98,6 +98,14 @@ std::vector<std::optional<std::size_t>> assign_frontiers(std::span<const Frontie
   return chosen;
 }
 
+Eigen::MatrixXd ways_of_free(const Eigen::MatrixXd& way, std::span<const std::uint8_t> is_free) {
+  Eigen::MatrixXd free = way;
+  for (Eigen::Index r = 0; r < free.rows(); ++r) {
+    if (is_free[static_cast<std::size_t>(r)] == 0) free.row(r).setConstant(std::numeric_limits<double>::infinity());
+  }
+  return free;
+}
+
 std::vector<std::optional<std::size_t>> nearest_frontiers(const Eigen::MatrixXd& way) {
   Choice chosen(static_cast<std::size_t>(way.rows()));
   for (Eigen::Index r = 0; r < way.rows() && way.cols() > 0; ++r) {

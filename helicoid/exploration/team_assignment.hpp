@@ -22,6 +22,9 @@ struct AssignmentOptions {
     std::span<const Frontier> frontiers, const Eigen::MatrixXd& way,
     std::span<const std::optional<std::size_t>> going_to, const AssignmentOptions& options = {});
 
+/// The ways of the robots that are free; infinite for the others.
+[[nodiscard]] Eigen::MatrixXd ways_of_free(const Eigen::MatrixXd& way, std::span<const std::uint8_t> is_free);
+
 /// Each robot's nearest frontier, whoever else goes there: what a team does without coordination (Yamauchi 1998).
 [[nodiscard]] std::vector<std::optional<std::size_t>> nearest_frontiers(const Eigen::MatrixXd& way);
 

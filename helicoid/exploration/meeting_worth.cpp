@@ -1,0 +1,64 @@
+#include "helicoid/exploration/meeting_worth.hpp"
+
+#include <algorithm>
+
+namespace helicoid {
+
+namespace {
+
+bool is_between_the_same(const Map& map, const Doubt& x, const Doubt& y) {
+  const auto same = [&](PatchId p, PatchId q) { return map.island_of(p) == map.island_of(q); };
+  return (same(x.a, y.a) && same(x.b, y.b)) || (same(x.a, y.b) && same(x.b, y.a));
+}
+
+/// The floor that need not be seen twice if the doubt's places are one, m2.
+double saved_m2(const Map& map, const Doubt& doubt, std::span<const Frontier> frontiers, double most_gain,
+                double reach) {
+  const bool between_islands = map.island_of(doubt.a) != map.island_of(doubt.b);
+  double saved = 0;
+  for (const Frontier& frontier : frontiers) {
+    for (const PatchId place : {doubt.a, doubt.b}) {
+      const Vector2d apart = project(map, frontier.middle) - map.T_plane_patch(place).translation();
+      const bool near = between_islands || apart.norm() <= reach;
+      if (near && map.island_of(place) == frontier.island) saved += 0.5 * std::min(frontier.gain_m2, most_gain);
+    }
+  }
+  return saved;
+}
+
+double worth_of(const TeamAtWork& team, std::span<const std::uint8_t> is_free, const AssignmentOptions& options) {
+  const Eigen::MatrixXd way = ways_of_free(team.way, is_free);
+  const std::vector<std::optional<std::size_t>> nobody(is_free.size());
+  return team_value(team.frontiers, way, nobody, assign_frontiers(team.frontiers, way, nobody, options), options);
+}
+
+}  // namespace
+
+double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> open, const RendezvousDesk& desk,
+                     const MeetingRecord& record) {
+  double alike = 1;
+  double all = 1;
+  for (const Doubt& other : open) {
+    const bool is_rival = other.id != doubt.id && map.island_of(doubt.a) != map.island_of(doubt.b) &&
+                          is_between_the_same(map, doubt, other);
+    if (!is_rival) continue;
+    ++all;
+    if (desk.asks_the_same(map, doubt, other)) ++alike;
+  }
+  const double usual = (record.met + 1.0) / (record.met + record.absent + 2.0);
+  return usual * alike / all / (1 + doubt.ambiguity);
+}
+
+bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,
+                      const TeamAtWork& team, const AssignmentOptions& assignment, const MeetingWorthOptions& options) {
+  if (team.frontiers.empty()) return true;
+  std::vector<std::uint8_t> others(team.is_free.begin(), team.is_free.end());
+  others[pair.watcher] = others[pair.shown] = 0;
+  const double saved = saved_m2(map, doubt, team.frontiers, assignment.most_gain, options.doubt_reach);
+  // Whoever has the shorter way waits for the other.
+  const double cost = 2 * (pair.longest + options.standing_m);
+  return worth_of(team, others, assignment) + likelihood * assignment.metres_per_m2 * saved - cost >=
+         worth_of(team, team.is_free, assignment);
+}
+
+}  // namespace helicoid

@@ -1,0 +1,44 @@
+// Whether a rendezvous is worth its time (paper VI): what it would save, by how likely its places are one, beside what
+// its two robots would see meanwhile.
+#pragma once
+
+#include <span>
+
+#include "helicoid/exploration/frontiers.hpp"
+#include "helicoid/exploration/rendezvous.hpp"
+#include "helicoid/exploration/team_assignment.hpp"
+
+namespace helicoid {
+
+struct MeetingWorthOptions {
+  double doubt_reach = 10;  ///< frontiers so near to a doubt's places may show what is known already, metres
+  double standing_m = 6;    ///< that either robot could drive while it stands there and looks, metres
+};
+
+/// What meetings have said so far.
+struct MeetingRecord {
+  int met = 0;
+  int absent = 0;
+};
+
+/// The probability that a doubt's two places are one. Of what contradicts one another between two islands one is right
+/// at most: a doubt has the share of those that would join them alike; a rival placement that fits as well halves it.
+/// And meetings tell how look-alikes fare in this building (Laplace's rule of succession).
+[[nodiscard]] double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> open,
+                                   const RendezvousDesk& desk, const MeetingRecord& record);
+
+/// The team as it could work without the meeting. `way` by member and frontier, metres.
+struct TeamAtWork {
+  std::span<const Frontier> frontiers;
+  const Eigen::MatrixXd& way;
+  std::span<const std::uint8_t> is_free;
+};
+
+/// By expected gain. If the places are one, what lies beyond either of them need not be looked at from the other's
+/// side; between two islands that is all that is open on either: neither knows what the other has seen. Where nothing
+/// is left to look at, every meeting is worth its time.
+[[nodiscard]] bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,
+                                    const TeamAtWork& team, const AssignmentOptions& assignment,
+                                    const MeetingWorthOptions& options = {});
+
+}  // namespace helicoid

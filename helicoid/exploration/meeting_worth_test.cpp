@@ -1,0 +1,80 @@
+#include "helicoid/exploration/meeting_worth.hpp"
+
+#include <gtest/gtest.h>
+
+#include "helicoid/manifold/map_editor.hpp"
+#include "tests/synthetic_room.hpp"
+
+namespace helicoid {
+namespace {
+
+/// Views of two islands that look alike in several ways, none of which agrees with another.
+struct LookAlikes {
+  synthetic::Builder builder;
+  std::vector<Doubt> doubts;
+  RendezvousDesk desk;
+
+  explicit LookAlikes(std::size_t count) {
+    const auto walls = synthetic::rectangle(0, 0, 8, 6);
+    const PatchId a = builder.add(walls, {1.5, 3, 0});
+    builder.island = MapEditor(builder.map).add_island();
+    for (std::size_t i = 0; i < count; ++i) {
+      // Each lays b's island elsewhere.
+      const PatchId b = builder.add(walls, {1.5, 3, 0}, {10.0 * static_cast<double>(i), 3, 0});
+      doubts.push_back({i, a, b, {{}, Matrix3d::Identity() * 1e-4}, 0});
+    }
+  }
+  [[nodiscard]] double likelihood(const MeetingRecord& record = {}) const {
+    return likelihood_of(builder.map, doubts.front(), doubts, desk, record);
+  }
+};
+
+TEST(MeetingWorth, OfDoubtsThatContradictOneAnotherOneIsTrueAtMost) {
+  EXPECT_NEAR(4 * LookAlikes(4).likelihood(), LookAlikes(1).likelihood(), 1e-12);
+}
+
+TEST(MeetingWorth, WhereLookAlikesWereDistinctTheNextOneIsBelievedLess) {
+  const LookAlikes one(1);
+  EXPECT_LT(one.likelihood({0, 3}), one.likelihood());
+  EXPECT_GT(one.likelihood({3, 0}), one.likelihood());
+}
+
+TEST(MeetingWorth, ARivalPlacementThatFitsAsWellHalvesIt) {
+  LookAlikes one(1);
+  const double without = one.likelihood();
+  one.doubts.front().ambiguity = 1;
+  EXPECT_NEAR(one.likelihood(), without / 2, 1e-12);
+}
+
+struct AtWork {
+  LookAlikes alike{1};
+  std::vector<Frontier> frontiers;
+  Eigen::MatrixXd way;
+  std::vector<std::uint8_t> is_free = {1, 1};
+
+  explicit AtWork(double gain_m2) : frontiers(gain_m2 > 0 ? 2 : 0), way(2, std::ssize(frontiers)) {
+    way.setConstant(1);
+    for (std::size_t i = 0; i < frontiers.size(); ++i) {
+      const auto square = static_cast<std::int32_t>(i);
+      frontiers[i].island = alike.builder.map.island_of(alike.doubts.front().a);
+      frontiers[i].middle = {alike.doubts.front().a, Vector2d::Zero()};
+      frontiers[i].gain_m2 = gain_m2;
+      frontiers[i].seen = {{square, 0, gain_m2}};
+    }
+  }
+  [[nodiscard]] bool is_worth(double likelihood, double longest) const {
+    return is_worth_meeting(alike.builder.map, alike.doubts.front(), likelihood, {0, 1, longest, longest},
+                            {frontiers, way, is_free}, {});
+  }
+};
+
+TEST(MeetingWorth, WhoHasNothingElseToDoMeets) {
+  EXPECT_TRUE(AtWork(0).is_worth(0.01, 500));
+}
+
+TEST(MeetingWorth, WhoHasMuchToSeeNearByDoesNotGoFarForAnUnlikelyAnswer) {
+  EXPECT_FALSE(AtWork(12).is_worth(0.05, 30));
+}
+
+}  // namespace
+}  // namespace helicoid
