@@ -1,9 +1,8 @@
 // Is a building that looks the same all round left open until something tells where one is?
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "apps/experiments/false_closures.hpp"
 #include "apps/experiments/list.hpp"
-#include "apps/simulated_run.hpp"
 #include "apps/world_picture.hpp"
 #include "helicoid/simulation/buildings.hpp"
 
@@ -14,8 +13,6 @@ namespace {
 constexpr int kLaps = 2;
 /// Something is seen when so many beams of a scan end on it.
 constexpr int kBeams = 10;
-constexpr double kFalseBy = 0.5;  // metres
-constexpr double kChi2 = 11.345;  // 99 % at three degrees of freedom
 
 /// When, on the last lap, a beam first ended on what breaks the symmetry, and when kBeams of one scan first did.
 class Watch {
@@ -90,11 +87,6 @@ Result<Observed> drive(const World& world, std::span<const Segment> breaker, std
   return Observed{std::move(*run), closing, watch.seen()};
 }
 
-double chi2(const Pose2& off, const Matrix3d& covariance) {
-  const Vector3d v(off.x, off.y, off.yaw);
-  return v.dot(covariance.ldlt().solve(v));
-}
-
 /// Accepted entries that are off by more than they say themselves, and those that name what told the place from others.
 struct Judged {
   double accepted = 0, wrong = 0, naming = 0;
@@ -104,9 +96,7 @@ Judged judge(const SimulatedRun& run) {
   for (const Hypothesis& h : run.mapper.ledger()) {
     if (!is_closure(run.map(), h)) continue;
     ++judged.accepted;
-    const Pose2 truth = run.T_world_patch(h.a).inverse() * run.T_world_patch(h.b);
-    const Pose2 off = truth.inverse() * h.T_a_b.T_a_b;
-    judged.wrong += off.distance() > kFalseBy && chi2(off, h.T_a_b.covariance) > kChi2 ? 1 : 0;
+    judged.wrong += is_false(run, h) ? 1 : 0;
     judged.naming += h.reason.find("tells it from places that look alike") != std::string::npos ? 1 : 0;
   }
   return judged;

@@ -1,5 +1,6 @@
 #include "helicoid/align/place_search.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +20,13 @@ struct Square {
   int bound = 0;
 };
 
+/// Of the smallest box about the window, along the axes.
+Vector2d half_widths(const PlaceWindow& window) {
+  Vector2d square(window.half_width, window.half_width);
+  if (window.limit.isZero()) return square;
+  return window.limit.inverse().diagonal().cwiseSqrt().cwiseMin(square);
+}
+
 class Search {
  public:
   Search(const ScorePyramid& pyramid, const ScanPoints& points, const PlaceWindow& window)
@@ -29,7 +37,9 @@ class Search {
     }
     const std::size_t stride = std::max<std::size_t>(1, (used.size() + kMostPoints - 1) / kMostPoints);
     turns_ = static_cast<int>(std::ceil(window.half_turn / window.turn_step));
-    shifts_ = static_cast<int>(std::ceil(window.half_width / static_cast<double>(kCell)));
+    const Vector2d half = half_widths(window);
+    columns_ = static_cast<int>(std::ceil(half.x() / static_cast<double>(kCell)));
+    rows_ = static_cast<int>(std::ceil(half.y() / static_cast<double>(kCell)));
     for (int k = -turns_; k <= turns_; ++k) {
       const Pose2 T = pose_at(k, 0, 0);
       const Matrix2d R = T.rotation();
@@ -56,6 +66,7 @@ class Search {
       open.pop_back();
       if (at.bound <= best) continue;
       if (at.level == 0) {
+        if (!is_within_limit(at)) continue;
         const Pose2 T = pose_at(at.heading - turns_, at.column, at.row);
         if (other != nullptr && !is_apart(T, other->T_reference_scan)) continue;
         best = at.bound;
@@ -72,6 +83,11 @@ class Search {
     const Pose2& m = window_.T_reference_scan;
     return {m.x + column * static_cast<double>(kCell), m.y + row * static_cast<double>(kCell),
             wrap_angle(m.yaw + turn * window_.turn_step)};
+  }
+
+  [[nodiscard]] bool is_within_limit(const Square& at) const {
+    const Vector2d p = static_cast<double>(kCell) * Vector2d(at.column, at.row);
+    return p.dot(window_.limit * p) <= 1;
   }
 
   [[nodiscard]] bool is_apart(const Pose2& a, const Pose2& b) const {
@@ -91,8 +107,8 @@ class Search {
     std::vector<Square> squares;
     constexpr int kTop = ScorePyramid::kLevels - 1;
     for (int h = 0; h < static_cast<int>(cells_.size()); ++h) {
-      for (int r = -shifts_; r <= shifts_; r += 1 << kTop) {
-        for (int c = -shifts_; c <= shifts_; c += 1 << kTop) squares.push_back({kTop, h, c, r, bound(kTop, h, c, r)});
+      for (int r = -rows_; r <= rows_; r += 1 << kTop) {
+        for (int c = -columns_; c <= columns_; c += 1 << kTop) squares.push_back({kTop, h, c, r, bound(kTop, h, c, r)});
       }
     }
     return squares;
@@ -105,7 +121,7 @@ class Search {
     for (int k = 0; k < 4; ++k) {
       const int c = square.column + (k & 1) * half;
       const int r = square.row + (k >> 1) * half;
-      if (c > shifts_ || r > shifts_) continue;
+      if (c > columns_ || r > rows_) continue;
       const int b = bound(square.level - 1, square.heading, c, r);
       if (b > best) open.push_back({square.level - 1, square.heading, c, r, b});
     }
@@ -115,7 +131,7 @@ class Search {
 
   const ScorePyramid& pyramid_;
   PlaceWindow window_;
-  int turns_ = 0, shifts_ = 0;
+  int turns_ = 0, columns_ = 0, rows_ = 0;
   std::size_t count_ = 0;
   std::vector<std::vector<ScoreCell>> cells_;  ///< by heading: where the points fall at the middle
 };

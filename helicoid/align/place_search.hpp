@@ -7,8 +7,10 @@
 namespace helicoid {
 
 struct PlaceWindow {
-  Pose2 T_reference_scan;      ///< the middle
-  double half_width = 2;       ///< along either axis, metres
+  Pose2 T_reference_scan;  ///< the middle
+  double half_width = 2;   ///< along either axis, metres
+  /// Of it only what lies within this ellipse about the middle: offsets p with p^T limit p <= 1. Zero: all of it.
+  Matrix2d limit = Matrix2d::Zero();
   double half_turn = 0.3;      ///< radians
   double turn_step = 0.04;     ///< between the headings that are tried, radians
   double least_score = 0.4;    ///< placements that score less are not looked for

@@ -23,7 +23,10 @@ void Mapper::State::go_on_from(Map before) {
     robots[map.patch(make_id<PatchId>(i)).robot.index()].last_kept = make_id<PatchId>(i);
   }
   for (RobotState& robot : robots) {
-    if (robot.last_kept.valid()) robot.T_kept_robot_raw = map.express(robot.pose, robot.last_kept).T_patch_robot;
+    if (!robot.last_kept.valid()) continue;
+    robot.since_kept.from = {robot.last_kept, Pose2{}};
+    robot.since_kept.T_from_robot = map.express(robot.pose, robot.last_kept).T_patch_robot;
+    robot.since_known = robot.since_kept;
   }
 }
 

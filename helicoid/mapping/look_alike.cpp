@@ -1,5 +1,6 @@
 #include "helicoid/mapping/look_alike.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,8 @@ namespace {
 
 /// A candidate may lie this much beyond its window, metres.
 constexpr double kMargin = 1;
+/// A window is this much wider than it need be, metres.
+constexpr double kSlack = 0.3;
 
 /// What the same robot kept just before, nothing if that was its first: to its last one each patch is tied by odometry.
 PatchId kept_before(const Map& map, PatchId id) {
@@ -41,10 +44,17 @@ double window_of(const UncertainPose2& T, const LookAlikeOptions& options) {
   return options.sigmas / 1.96 * options.drift_inflation * confidence_interval(T.covariance).position;
 }
 
+/// How far off the two may lie from where the map has them: offsets p with p^T W^-1 p <= 1, `more` metres added.
+Matrix2d window_shape(const UncertainPose2& T, double more, const LookAlikeOptions& options) {
+  const double deviations = options.sigmas * options.drift_inflation;
+  return deviations * deviations * T.covariance.topLeftCorner<2, 2>() + more * more * Matrix2d::Identity();
+}
+
 PlaceWindow window_about(const Candidate& candidate, const LookAlikeOptions& options) {
   PlaceWindow window;
   window.T_reference_scan = candidate.T_a_b.T_a_b;
-  window.half_width = std::min(options.widest, window_of(candidate.T_a_b, options) + 0.3);
+  window.half_width = std::min(options.widest, window_of(candidate.T_a_b, options) + kSlack);
+  window.limit = window_shape(candidate.T_a_b, kSlack, options).inverse();
   window.half_turn =
       std::min(options.widest_turn,
                options.sigmas * options.drift_inflation * std::sqrt(candidate.T_a_b.covariance(2, 2)) + 0.05);
@@ -225,6 +235,19 @@ bool is_foretold(const Candidate& candidate, const TwoPlaces& places, const Fit&
   return difference.dot(candidate.T_a_b.covariance.inverse() * difference) < kChi2;
 }
 
+Matrix3d floor_of(const LaserModel& laser) {
+  return noise_floor(laser.floor_position, laser.floor_heading);
+}
+
+/// What little was matched in the direction that surfaces leave open is as a rule matched wrongly: it is left out.
+Matrix3d without_weakest(const Matrix3d& information) {
+  const Eigen::SelfAdjointEigenSolver<Matrix2d> directions(information.topLeftCorner<2, 2>());
+  Vector3d open = Vector3d::Zero();
+  open.head<2>() = directions.eigenvectors().col(0);
+  const Matrix3d kept = Matrix3d::Identity() - open * open.transpose();
+  return kept * information * kept;
+}
+
 }  // namespace
 
 double merit_of(const Hypothesis& h, const LookAlikeOptions& options) {
@@ -236,7 +259,8 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
                                          const LookAlikeOptions& options) {
   const TwoPlaces places = look_at(map, graph, candidate, place, mapper, options);
   Fits fits;
-  if (confidence_interval(candidate.T_a_b.covariance).position > options.narrow) {
+  const bool is_searched = confidence_interval(candidate.T_a_b.covariance).position > options.narrow;
+  if (is_searched) {
     fits = search_from_middle(map, places, candidate, options);
   } else {
     fits.best = fit_near(map, places, candidate, options);
@@ -249,13 +273,14 @@ std::optional<Hypothesis> compare_places(const Map& map, const InformationGraph&
   h.a = candidate.a;
   h.b = place.b;
   h.ambiguity = std::min(1.0, fits.second.merit(options) / best.merit(options));
-  if (alignment.status == AlignStatus::degenerate && h.ambiguity > 0) return std::nullopt;
+  // Where along a bare wall a place lies in a wide window, nothing tells; in a narrow one the map has said it.
+  const bool is_open = alignment.status == AlignStatus::degenerate;
+  if (is_open && is_searched) return std::nullopt;
   h.T_a_b.T_a_b = alignment.T_reference_scan;
-  h.T_a_b.covariance = (alignment.information / places.align.kappa + 1e-3 * Matrix3d::Identity()).inverse();
-  const LaserModel& laser_a = map.patch(candidate.a).laser;
-  const LaserModel& laser_b = map.patch(place.b).laser;
-  h.T_a_b.covariance = with_noise_floor(h.T_a_b, noise_floor(laser_a.floor_position, laser_a.floor_heading),
-                                        noise_floor(laser_b.floor_position, laser_b.floor_heading));
+  const Matrix3d information = is_open ? without_weakest(alignment.information) : alignment.information;
+  h.T_a_b.covariance = (information / places.align.kappa + 1e-3 * Matrix3d::Identity()).inverse();
+  h.T_a_b.covariance =
+      with_noise_floor(h.T_a_b, floor_of(map.patch(candidate.a).laser), floor_of(map.patch(place.b).laser));
   h.score = alignment.inlier_share;
   h.contradicted = best.contradicted;
   h.reason = difference_in_words(map, places, {alignment.T_reference_scan, best.contradicted},

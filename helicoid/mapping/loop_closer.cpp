@@ -161,10 +161,8 @@ std::vector<std::size_t> LoopCloser::enter(const Map& map, const InformationGrap
   if (follow_operator(map, entry)) {
     return h.state == HypothesisState::accepted ? std::vector{entry} : std::vector<std::size_t>{};
   }
-  std::vector<std::size_t> agreeing = h.supports;
-  std::erase_if(agreeing, [&](std::size_t i) { return is_left_open(ledger_[i]); });
-  agreeing.push_back(entry);
-  return is_enough(agreeing, quorum) ? accept(agreeing, quorum) : std::vector<std::size_t>{};
+  const std::vector<std::size_t> agreeing = true_together_with(entry);
+  return is_enough(agreeing, quorum) ? accept(agreeing) : std::vector<std::size_t>{};
 }
 
 bool LoopCloser::follow_operator(const Map& map, std::size_t entry) {
@@ -207,12 +205,11 @@ void LoopCloser::withhold_with(std::size_t entry, std::size_t decided) {
   h.reason = fmt::format("says the same as entry {}, about which the operator decided", *h.decided_with);
 }
 
-std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing, const Quorum& quorum) {
+std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing) {
   const std::string telling = what_tells(ledger_, told_apart_, agreeing, options_.most_ambiguous);
-  // Where those that tell are enough, the others are not acted on: they may lie anywhere along a wall that looks alike.
-  const std::vector<std::size_t> clear = clear_of(agreeing);
+  // Only those that tell are acted on: the others may lie anywhere along a wall that looks alike.
   std::vector<std::size_t> accepted;
-  for (const std::size_t i : is_quorate(clear, quorum) ? clear : agreeing) {
+  for (const std::size_t i : clear_of(agreeing)) {
     if (ledger_[i].state != HypothesisState::open) continue;
     ledger_[i].state = HypothesisState::accepted;
     ledger_[i].decided_by = DecidedBy::evidence;

@@ -30,6 +30,7 @@ struct LoopCloserOptions {
   /// Together: share of the points that stand in what the other passage saw as free. Furniture that was moved
   /// contradicts a place here and there, a building that merely looks alike nearly everywhere.
   double most_contradicted = 0.015;
+  double most_contradicted_one = 0.05;  ///< of any one of them: it speaks for no other
   double outvotes = 1.5;  ///< they weigh this many times as much as any others that cannot be true together with them
 };
 
@@ -95,12 +96,17 @@ class LoopCloser {
   /// True if the operator has decided about it, or about one that says the same.
   bool follow_operator(const Map& map, std::size_t entry);
   void withhold_with(std::size_t entry, std::size_t decided);
+  /// Little enough speaks against it.
+  [[nodiscard]] bool is_sound(std::size_t entry) const;
+  /// Those that speak for this entry, itself the last, and that can all be true together; those that were accepted
+  /// before them. Empty if it cannot be true with one that was.
+  [[nodiscard]] std::vector<std::size_t> true_together_with(std::size_t entry) const;
   /// Those from which there is a telling.
   [[nodiscard]] std::vector<std::size_t> clear_of(const std::vector<std::size_t>& entries) const;
-  [[nodiscard]] bool is_quorate(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const;
+  [[nodiscard]] bool is_quorate(const std::vector<std::size_t>& entries, const Quorum& quorum) const;
   [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const;
   [[nodiscard]] double way_since_search(const Map& map, PatchId b) const;
-  std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing, const Quorum& quorum);
+  std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing);
 
   MapperOptions mapper_;
   LoopCloserOptions options_;

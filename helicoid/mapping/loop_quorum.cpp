@@ -8,6 +8,48 @@
 
 namespace helicoid {
 
+namespace {
+
+bool leaves_open(const Hypothesis& h) {
+  constexpr double kOpen = 5;  // metres
+  return confidence_interval(h.T_a_b.covariance).position > kOpen;
+}
+
+}  // namespace
+
+bool LoopCloser::is_sound(std::size_t entry) const {
+  const Hypothesis& h = ledger_[entry];
+  return !is_left_open(h) && h.contradicted <= options_.most_contradicted_one;
+}
+
+std::vector<std::size_t> LoopCloser::true_together_with(std::size_t entry) const {
+  const auto conflict = [&](std::size_t i, std::size_t k) {
+    const std::vector<std::size_t>& earlier = ledger_[std::max(i, k)].conflicts;
+    return std::find(earlier.begin(), earlier.end(), std::min(i, k)) != earlier.end();
+  };
+  // A sighting that was believed at once may be a lie: it is held to account, and does not bind others.
+  const auto is_believed = [&](std::size_t i) {
+    return ledger_[i].state == HypothesisState::accepted && ledger_[i].source == HypothesisSource::lookalike;
+  };
+  std::vector<std::size_t> ranked = ledger_[entry].supports;
+  std::erase_if(ranked, [&](std::size_t i) { return !is_sound(i); });
+  std::stable_sort(ranked.begin(), ranked.end(), [&](std::size_t i, std::size_t k) {
+    if (is_believed(i) != is_believed(k)) return is_believed(i);
+    return merit_of(ledger_[i], options_.look_alike) > merit_of(ledger_[k], options_.look_alike);
+  });
+  const std::vector<std::size_t>& against = ledger_[entry].conflicts;
+  if (!is_sound(entry) || std::any_of(against.begin(), against.end(), is_believed)) return {};
+  std::vector<std::size_t> together;
+  for (const std::size_t i : ranked) {
+    if (std::none_of(together.begin(), together.end(), [&](std::size_t k) { return conflict(i, k); })) {
+      together.push_back(i);
+    }
+  }
+  std::sort(together.begin(), together.end());
+  together.push_back(entry);
+  return together;
+}
+
 bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const {
   if (!is_quorate(agreeing, quorum)) return false;
   const std::vector<std::size_t> clear = clear_of(agreeing);
@@ -42,7 +84,10 @@ std::vector<std::size_t> LoopCloser::clear_of(const std::vector<std::size_t>& en
   return clear;
 }
 
-bool LoopCloser::is_quorate(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const {
+bool LoopCloser::is_quorate(const std::vector<std::size_t>& entries, const Quorum& quorum) const {
+  // Who leaves a direction open agrees with any place along it.
+  std::vector<std::size_t> agreeing = entries;
+  std::erase_if(agreeing, [&](std::size_t i) { return leaves_open(ledger_[i]); });
   if (agreeing.empty() || agreeing.size() < quorum.agreeing) return false;
   double low = HUGE_VAL;
   double high = -HUGE_VAL;

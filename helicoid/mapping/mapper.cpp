@@ -49,6 +49,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   } else if (ground) {
     stand_on(robot, *ground);
   }
+  note_known_ground(robot, alignment);
   result.pose = robot.pose;
   editor.append_scan(event.robot, {event.stamp, robot.pose, map.T_plane_patch(robot.pose.patch), robot.covariance});
   return result;
@@ -59,10 +60,10 @@ bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignme
   const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
   // Who has kept nothing for a while walks known ground: there it takes more, or every lap would fill in gaps that the
   // ones before it left by a little.
-  const double more =
-      robot.path + options.patch_spacing / options.patch_turn * robot.turn > options.known_way * options.patch_spacing
-          ? options.known_ground_factor
-          : 1;
+  const double more = robot.since_kept.path + options.patch_spacing / options.patch_turn * robot.since_kept.turn >
+                              options.known_way * options.patch_spacing
+                          ? options.known_ground_factor
+                          : 1;
   // A scan that saw next to nothing makes no patch: nothing could be matched to it.
   const bool sees = points >= static_cast<std::size_t>(AlignOptions{}.min_points);
   if (sees && is_far_from_all(robot.local, T_anchor_robot, options, more)) return true;
@@ -130,6 +131,7 @@ Step Mapper::State::start_island(RobotState& robot, const Event& event, const Sc
   graph.add_pose();
   robot.pose = {id, Pose2{}};
   robot.last_kept = id;
+  robot.since_kept = robot.since_known = DrivenWay(robot.pose);
   robot.stale = true;
   editor.append_scan(event.robot, {event.stamp, robot.pose, Pose2{}, Matrix3d::Zero()});
   return {StepStatus::first, robot.pose, id, 0, 0};
@@ -145,7 +147,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
       select_views(map, robot.local, patch.points, T_anchor_robot, robot.last_kept, options.relation_views);
   // The new patch's fit is worth no more beforehand than odometry: the match's own beams must not count twice. What the
   // views leave open stays where the robot was followed to.
-  const PosePrior prior{T_anchor_robot, robot.motion.path_information(robot.path, robot.turn)};
+  const PosePrior prior{T_anchor_robot, robot.motion.path_information(robot.since_known.path, robot.since_known.turn)};
   const RelatedPatch related = relate(map, views, patch, prior);
   editor.add_patch(std::move(patch), map.T_plane_patch(anchor) * related.T_anchor_patch, map.island_of(anchor));
   graph.add_pose();
@@ -159,8 +161,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   robot.pose = {id, Pose2{}};
   robot.covariance.setZero();
   robot.last_kept = id;
-  robot.T_kept_robot_raw = Pose2{};
-  robot.path = robot.turn = 0;
+  robot.since_kept = robot.since_known = DrivenWay(robot.pose);
   robot.stale = true;
   return id;
 }
@@ -187,9 +188,13 @@ void Mapper::State::close_what_is_left() {
 }
 
 void Mapper::State::relate_to_last(RobotState& robot, PatchId id) {
-  const Matrix3d information = robot.motion.path_information(robot.path, robot.turn);
-  add_relation({robot.last_kept, id, RelationKind::odometry, pose_pose_form(robot.T_kept_robot_raw, information),
-                robot.T_kept_robot_raw, 0, 0, 0});
+  const auto relate_by = [&](const DrivenWay& way) {
+    const UncertainPose2 end = way.end(robot.motion);
+    add_relation({way.from.patch, id, RelationKind::odometry, pose_pose_form(end.T_a_b, end.covariance.inverse()),
+                  end.T_a_b, 0, 0, 0});
+  };
+  relate_by(robot.since_kept);
+  if (robot.since_known.from.patch != robot.since_kept.from.patch) relate_by(robot.since_known);
 }
 
 void Mapper::State::add_relation(const Relation& relation) {

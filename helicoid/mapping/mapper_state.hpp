@@ -35,6 +35,8 @@ struct Mapper::State {
   Motion advance(RobotState& robot, const Event& event, const Scan& scan);
   void follow(RobotState& robot, const Motion& motion, const PosePrior& prior, const Alignment& alignment,
               const LaserModel& laser);
+  /// Where the scans tell surely where on older ground the robot stands, odometry begins anew.
+  void note_known_ground(RobotState& robot, const Alignment& alignment);
   Step start_island(RobotState& robot, const Event& event, const Scan& scan);
   void renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot);
   Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const Motion& motion,

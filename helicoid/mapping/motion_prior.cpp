@@ -17,8 +17,27 @@ constexpr double kHeadingPerMetre = 0.06;  // radians per metre
 constexpr double kDriving = 0.05;          // metres from scan to scan: a robot that drives
 constexpr double kStopped = 0.2;           // and has all at once stopped: this part of it
 constexpr double kUnmeasuredFactor = 5;    // constant velocity is worth this much less
+// How a robot's odometry counts metres.
+constexpr double kDoubt = 20;    // metres of way that speak for its being right
+constexpr double kMemory = 300;  // metres
+constexpr double kMost = 0.3;    // one step tells no more, metres
 
 }  // namespace
+
+Pose2 OdometryGain::corrected(const Pose2& step) const {
+  return {gain() * step.x, gain() * step.y, step.yaw};
+}
+
+double OdometryGain::gain() const {
+  return 1 + too_short_ / (way_ + kDoubt);
+}
+
+void OdometryGain::learn(const Pose2& step, const Pose2& matched) {
+  const double way = std::abs(step.x);
+  const double kept = std::max(0.0, 1 - way / kMemory);
+  way_ = kept * way_ + way;
+  too_short_ = kept * too_short_ + std::copysign(1.0, step.x) * std::clamp(matched.x - step.x, -kMost, kMost);
+}
 
 Motion MotionPrior::advance(const Scan& scan, double stamp) {
   Motion motion;
@@ -28,8 +47,8 @@ Motion MotionPrior::advance(const Scan& scan, double stamp) {
     motion.T_last_now = velocity_;
     motion.measured = false;
   } else if (has_last_) {
-    motion.T_last_now = T_odom_last_.inverse() * scan.T_odom_robot;
-    motion.T_last_now_odometry = motion.T_last_now;
+    motion.T_last_now_odometry = T_odom_last_.inverse() * scan.T_odom_robot;
+    motion.T_last_now = gain_.corrected(motion.T_last_now_odometry);
     if (motion.T_last_now.distance() > limits_.speed * elapsed ||
         std::abs(motion.T_last_now.yaw) > limits_.turn_rate * elapsed) {
       motion.T_last_now = velocity_;
@@ -78,6 +97,7 @@ Matrix3d MotionPrior::path_information(double path, double turn) const {
 void MotionPrior::learn(const Motion& predicted, const Pose2& T_last_now_matched) {
   velocity_ = T_last_now_matched;
   if (!predicted.measured) return;
+  gain_.learn(predicted.T_last_now_odometry, T_last_now_matched);
   const Pose2 innovation = predicted.T_last_now.inverse() * T_last_now_matched;
   const Vector3d s = sigma(predicted.T_last_now.distance(), std::abs(predicted.T_last_now.yaw));
   const double ratio = scale_ * innovation.vector().cwiseQuotient(s).squaredNorm() / 3;

@@ -23,6 +23,18 @@ struct Motion {
   Pose2 T_last_now_odometry;  ///< the step as odometry has it, where it has one: possible or not
 };
 
+/// By how much a robot's odometry counts its metres short or long, as its matches have it: tyres wear, and a floor's
+/// give is no tape measure. Where matches tell nothing of the way, they say that odometry is right.
+class OdometryGain {
+ public:
+  [[nodiscard]] Pose2 corrected(const Pose2& step) const;
+  void learn(const Pose2& step, const Pose2& matched);
+  [[nodiscard]] double gain() const;
+
+ private:
+  double way_ = 0, too_short_ = 0;  ///< metres
+};
+
 class MotionPrior {
  public:
   explicit MotionPrior(const MotionLimits& limits = {}) : limits_(limits) {}
@@ -49,6 +61,7 @@ class MotionPrior {
   bool has_last_ = false;
   Pose2 T_odom_last_;
   double last_stamp_ = 0;
+  OdometryGain gain_;
   Pose2 velocity_;  ///< the last matched motion
   bool in_doubt_ = false;
   double scale_ = 1;  ///< squared: innovations over what sigma() says

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "helicoid/align/reference.hpp"
+#include "helicoid/mapping/driven_way.hpp"
 #include "helicoid/mapping/local_map.hpp"
-#include "helicoid/mapping/motion_prior.hpp"
 #include "helicoid/mapping/seen_robots.hpp"
 
 namespace helicoid {
@@ -26,9 +26,8 @@ struct RobotState {
   Pose2 T_anchor_coverage_view;   ///< where coverage was looked at last
   bool stale = true;              ///< the local map and the reference must be made again
   PatchId last_kept;
-  Pose2 T_kept_robot_raw;  ///< raw odometry since the last kept patch
-  double path = 0;         ///< along it, metres
-  double turn = 0;         ///< radians
+  DrivenWay since_kept;    ///< from the last kept patch
+  DrivenWay since_known;   ///< the same, or from where the scans last told surely where on older ground the robot stood
   double usual_share = 0;  ///< running mean of the matches' inlier shares
 };
 

@@ -101,9 +101,8 @@ Motion Mapper::State::advance(RobotState& robot, const Event& event, const Scan&
   if (motion.impossible) ++counts.odometry_jumps;
   if (!scan.has_odometry) ++counts.scans_without_odometry;
   if (!robot.pose.patch.valid()) return motion;
-  robot.T_kept_robot_raw = robot.T_kept_robot_raw * motion.T_last_now;
-  robot.path += motion.T_last_now.distance();
-  robot.turn += std::abs(motion.T_last_now.yaw);
+  robot.since_kept.add(motion.T_last_now);
+  robot.since_known.add(motion.T_last_now);
   return motion;
 }
 
@@ -123,6 +122,17 @@ void Mapper::State::follow(RobotState& robot, const Motion& motion, const PosePr
     T_anchor_robot = prior.T_reference_scan;
   }
   robot.covariance = information.inverse();
+}
+
+void Mapper::State::note_known_ground(RobotState& robot, const Alignment& alignment) {
+  constexpr double kAnew = 3;    // metres
+  constexpr double kSure = 0.1;  // of the interval, metres
+  if (alignment.status != AlignStatus::aligned || robot.pose.patch == robot.last_kept ||
+      robot.since_known.path < kAnew) {
+    return;
+  }
+  if (confidence_interval(robot.covariance).position > kSure) return;
+  robot.since_known = DrivenWay(robot.pose, robot.covariance);
 }
 
 std::optional<LocalPatch> Mapper::State::find_ground(const RobotState& robot) const {
