@@ -40,7 +40,7 @@ bool has_enough_ties(const Map& map, PatchId b, std::span<const double> along, c
   const std::span<const RelationId> relations = map.relations_of(b);
   return std::count_if(relations.begin(), relations.end(), [&](RelationId id) {
            const Relation& r = map.relation(id);
-           return r.b == b && !is_of_this_passage(r.a);
+           return r.b == b && r.kind != RelationKind::odometry && !is_of_this_passage(r.a);
          }) >= kTies;
 }
 
