@@ -87,6 +87,21 @@ TEST(Frontiers, AnOpenDoorIsTheWayToWhatLiesBehind) {
   EXPECT_THAT(frontiers_of(survey(walls, poses).map), testing::IsEmpty());
 }
 
+TEST(Frontiers, AWallThatWasOnlySeenAlongItselfMayHaveADoorUntilItIsSeenFromNear) {
+  // Wherever beams cross its line there is a return: of a wall, or of both posts of a door by halves.
+  const std::vector<Wall> corridor = synthetic::rectangle(0, 0, 12, 2);
+  std::vector<Pose2> poses = looking_round({{1, 1}});
+  for (int i = 0; i < 20; ++i) poses.push_back({1 + 0.06 * i, 0.7 + 0.031 * i, 0});
+  double gain = 0;
+  for (const Builder builder = survey(corridor, poses); const Frontier& f : frontiers_of(builder.map)) {
+    EXPECT_GT(project(builder.map, f.middle).x(), 4);
+    gain = std::max(gain, f.gain_m2);
+  }
+  EXPECT_GT(gain, 4) << "there may be a room";
+  for (const Pose2& pose : looking_round({{5, 1}, {8, 1}, {11, 1}})) poses.push_back(pose);
+  EXPECT_THAT(frontiers_of(survey(corridor, poses).map), testing::IsEmpty());
+}
+
 TEST(Frontiers, WhatANeighbourCoversIsNoneAndWhatAnotherSheetCoversStillIs) {
   const std::vector<Wall> walls = synthetic::rectangle(0, 0, 8, 6);
   std::vector<Pose2> poses = {{3, 3, 0}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "helicoid/sensor/scan_points.hpp"
 
@@ -36,7 +37,23 @@ PatchView::PatchView(const Patch& patch, const PatchViewOptions& options)
     returned_[i] = is_return(range, patch.laser) ? 1 : 0;
     ends_[i] = (returned_[i] != 0 ? range : patch.free_ranges[i]) * Eigen::Vector2f(table.cosine[i], table.sine[i]);
   }
+  find_in_between();
   find_open_points();
+}
+
+void PatchView::find_in_between() {
+  in_between_.assign(ends_.size(), 0);
+  // By the next beams on either side that say anything: grazing surfaces swallow some.
+  std::vector<std::size_t> beams;
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    if (returned_[i] != 0) beams.push_back(i);
+  }
+  for (std::size_t k = 1; k + 1 < beams.size(); ++k) {
+    const auto [before, at, after] = std::tuple(beams[k - 1], beams[k], beams[k + 1]);
+    if (is_surface(before, at) || is_surface(at, after)) continue;
+    const float range = ends_[at].norm();
+    in_between_[at] = (ends_[before].norm() < range) != (ends_[after].norm() < range) ? 1 : 0;
+  }
 }
 
 bool PatchView::is_surface(std::size_t beam, std::size_t next) const {
@@ -59,7 +76,7 @@ bool PatchView::near_obstacle(const Eigen::Vector2f& p_laser, std::ptrdiff_t bea
   const std::ptrdiff_t last = std::min(std::ssize(ends_) - 1, beam + width);
   for (std::ptrdiff_t i = first; i <= last; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (returned_[at] == 0) continue;
+    if (!is_obstacle(at)) continue;
     if (squared_distance(p_laser, ends_[at], ends_[surface_end(at)]) <= reach * reach) return true;
   }
   return false;
@@ -90,7 +107,7 @@ std::vector<PatchView::Surface> PatchView::surfaces() const {
   const Eigen::Vector2f t = T_patch_laser.translation().cast<float>();
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < ends_.size(); ++i) {
-    if (returned_[i] == 0) continue;
+    if (!is_obstacle(i)) continue;
     surfaces.push_back({R * ends_[i] + t, R * ends_[surface_end(i)] + t});
   }
   return surfaces;

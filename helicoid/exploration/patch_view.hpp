@@ -32,7 +32,7 @@ class PatchView {
   [[nodiscard]] bool knows(const Vector2d& p_patch) const;
   /// The open edges of its free space: shadows, the laser's reach, the ends of its field of view.
   [[nodiscard]] const std::vector<OpenPoint>& open_points() const { return open_points_; }
-  /// The obstacles: stretches between the ends of neighbouring beams (from == to: a single end).
+  /// The obstacles: stretches between the ends of neighbouring beams (from == to: a single end that is certain).
   struct Surface {
     Eigen::Vector2f from_patch, to_patch;
   };
@@ -45,6 +45,8 @@ class PatchView {
   void open_edge(const Eigen::Vector2f& from_patch, const Eigen::Vector2f& to_patch);
   [[nodiscard]] bool is_surface(std::size_t beam, std::size_t next) const;
   [[nodiscard]] std::size_t surface_end(std::size_t beam) const;
+  [[nodiscard]] bool is_obstacle(std::size_t beam) const { return returned_[beam] != 0 && in_between_[beam] == 0; }
+  void find_in_between();
 
   const Patch* patch_;
   PatchViewOptions options_;
@@ -53,6 +55,9 @@ class PatchView {
   Eigen::Vector2f t_laser_patch_;
   std::vector<Eigen::Vector2f> ends_;   ///< of the beams, in the laser's frame
   std::vector<std::uint8_t> returned_;  ///< the beam ends on a surface
+  /// It ends alone, between a nearer and a farther one: on a wall met at a grazing angle, or in the air, if the beam
+  /// met two surfaces by halves. Which, only a nearer look tells: it is taken for neither.
+  std::vector<std::uint8_t> in_between_;
   std::vector<OpenPoint> open_points_;
 };
 

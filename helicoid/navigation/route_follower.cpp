@@ -9,13 +9,16 @@ namespace helicoid {
 
 namespace {
 
-constexpr double kReach = 3.0;         // of the route that is looked at, metres
-constexpr double kShortest = 0.12;     // look-ahead, metres
-constexpr double kLookingStep = 0.08;  // between look-aheads that are tried, metres
-constexpr double kBesideAhead = 0.7;   // metres
-constexpr double kMostAside = 0.8;     // metres
-constexpr double kTurnGain = 2.5;      // radians a second for a radian
-constexpr double kTurnOfYielding = 2;  // between two robots' turns to give way, seconds
+constexpr double kReach = 3.0;      // of the route that is looked at, metres
+constexpr double kShortest = 0.12;  // look-ahead, metres
+// Beyond the margin, where the way leaves room for it: lasers measure dark surfaces some centimetres too far off.
+constexpr double kBerth = 0.04;          // metres
+constexpr double kShortestBerth = 0.30;  // look-ahead with a berth, metres
+constexpr double kLookingStep = 0.08;    // between look-aheads that are tried, metres
+constexpr double kBesideAhead = 0.7;     // metres
+constexpr double kMostAside = 0.8;       // metres
+constexpr double kTurnGain = 2.5;        // radians a second for a radian
+constexpr double kTurnOfYielding = 2;    // between two robots' turns to give way, seconds
 constexpr int kTurns = 8;
 
 double bearing_of(const Vector2d& p) {
@@ -116,13 +119,20 @@ std::optional<Vector2d> RouteFollower::first_barred(std::span<const Vector2d> wa
   return std::nullopt;
 }
 
-/// Pure pursuit (Coulter 1992) of the farthest point of the way to which the robot can go straight.
-DriveCommand RouteFollower::pursue(std::span<const Vector2d> way, double left) {
-  for (double along = options_.look_ahead; along >= kShortest; along -= kLookingStep) {
+/// The farthest point of the way to which the robot can go straight, so wide from everything.
+std::optional<Vector2d> RouteFollower::farthest_free(std::span<const Vector2d> way, double wide,
+                                                     double shortest) const {
+  for (double along = options_.look_ahead; along >= shortest; along -= kLookingStep) {
     const Vector2d target = point_along(way, along).p;
-    if (obstacles_.free_way(target, radius()) < target.norm() - 1e-9) continue;
-    return drive_to(target, left);
+    if (obstacles_.free_way(target, wide) >= target.norm() - 1e-9) return target;
   }
+  return std::nullopt;
+}
+
+/// Pure pursuit (Coulter 1992).
+DriveCommand RouteFollower::pursue(std::span<const Vector2d> way, double left) {
+  if (const auto target = farthest_free(way, radius() + kBerth, kShortestBerth)) return drive_to(*target, left);
+  if (const auto target = farthest_free(way, radius(), kShortest)) return drive_to(*target, left);
   // Up to what stands there, looking at it.
   return turn_to(bearing_of(point_along(way, options_.look_ahead).p));
 }

@@ -79,6 +79,8 @@ class RouteFollower {
   [[nodiscard]] FollowStep finish(const Map& map, const ManifoldPose& robot, double left);
   [[nodiscard]] std::optional<DriveCommand> step_aside(const Map& map, const ManifoldPose& robot, double dt);
   [[nodiscard]] std::optional<Vector2d> place_to_the_right(std::span<const Vector2d> way) const;
+  [[nodiscard]] std::optional<Vector2d> farthest_free(std::span<const Vector2d> way, double wide,
+                                                      double shortest) const;
   [[nodiscard]] std::optional<Vector2d> first_barred(std::span<const Vector2d> way) const;
 
   FollowerOptions options_;
