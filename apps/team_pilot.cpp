@@ -158,7 +158,9 @@ void TeamPilot::find_way(Member& m, double now) {
   m.has_way = route.status == RouteStatus::found;
   m.way_found_at = now;
   if (m.has_way) {
-    m.follower.follow(std::move(route), m.goal.heading_patch);
+    std::optional<ManifoldHeading> heading;
+    if (m.goal.heading_patch) heading = ManifoldHeading{m.goal.point.patch, *m.goal.heading_patch};
+    m.follower.follow(std::move(route), heading);
   } else {
     m.follower.stop();
   }
