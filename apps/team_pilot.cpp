@@ -223,7 +223,8 @@ std::vector<Doubt> TeamPilot::open_doubts() const {
 }
 
 void TeamPilot::compare_islands(double now) {
-  if (members_.size() < 2 || now - proposed_at_ < options_.propose_period) return;
+  const bool asks = options_.greedy || (options_.explorer.meet && !planner_);
+  if (!asks || members_.size() < 2 || now - proposed_at_ < options_.propose_period) return;
   const Timed timed(times_.map_s);
   proposed_at_ = now;
   mapper_.propose();
