@@ -101,8 +101,11 @@ void TeamPilot::tell_of(const Event& event, const Sighting& sighting) {
   const auto observed =
       std::find_if(robots.begin(), robots.end(), [&](const RobotRecord& r) { return r.name == sighting.observed; });
   if (observed == robots.end()) return;
+  const RobotRecord& observer = map().robot(event.robot);
+  if (observer.trajectory.empty() || observed->trajectory.empty()) return;
+  const auto island = [&](const RobotRecord& r) { return map().island_of(r.trajectory.back().pose.patch); };
   explorer_.saw({event.stamp, event.robot, make_id<RobotId>(static_cast<std::size_t>(observed - robots.begin())),
-                 sighting.range});
+                 sighting.range, island(observer) != island(*observed)});
 }
 
 void TeamPilot::plan(double now, std::span<const Order> orders) {
