@@ -101,8 +101,11 @@ void TeamPilot::tell_of(const Event& event, const Sighting& sighting) {
   const auto observed =
       std::find_if(robots.begin(), robots.end(), [&](const RobotRecord& r) { return r.name == sighting.observed; });
   if (observed == robots.end()) return;
+  const RobotRecord& observer = map().robot(event.robot);
+  if (observer.trajectory.empty() || observed->trajectory.empty()) return;
+  const auto island = [&](const RobotRecord& r) { return map().island_of(r.trajectory.back().pose.patch); };
   explorer_.saw({event.stamp, event.robot, make_id<RobotId>(static_cast<std::size_t>(observed - robots.begin())),
-                 sighting.range});
+                 sighting.range, island(observer) != island(*observed)});
 }
 
 void TeamPilot::plan(double now, std::span<const Order> orders) {
@@ -158,7 +161,9 @@ void TeamPilot::find_way(Member& m, double now) {
   m.has_way = route.status == RouteStatus::found;
   m.way_found_at = now;
   if (m.has_way) {
-    m.follower.follow(std::move(route), m.goal.heading_patch);
+    std::optional<ManifoldHeading> heading;
+    if (m.goal.heading_patch) heading = ManifoldHeading{m.goal.point.patch, *m.goal.heading_patch};
+    m.follower.follow(std::move(route), heading);
   } else {
     m.follower.stop();
   }
@@ -221,7 +226,8 @@ std::vector<Doubt> TeamPilot::open_doubts() const {
 }
 
 void TeamPilot::compare_islands(double now) {
-  if (members_.size() < 2 || now - proposed_at_ < options_.propose_period) return;
+  const bool asks = options_.greedy || (options_.explorer.meet && !planner_);
+  if (!asks || members_.size() < 2 || now - proposed_at_ < options_.propose_period) return;
   const Timed timed(times_.map_s);
   proposed_at_ = now;
   mapper_.propose();

@@ -67,9 +67,17 @@ void draw_robots(SvgDrawing& drawing, const Paper& paper, std::span<const TrueTr
   }
 }
 
+void draw_note(SvgDrawing& drawing, const Paper& paper, const WorldNote& note) {
+  const Vector2d a = paper(note.p_world_a);
+  const Vector2d b = paper(note.p_world_b);
+  drawing.line(a, b, {charts::kText, 1.5, "6 5"});
+  for (const Vector2d& p : {a, b}) drawing.disc(p, 6, charts::kText);
+  drawing.text(0.5 * (a + b) - Vector2d(0, 8), note.text, {16, "middle", charts::kText, true});
+}
+
 }  // namespace
 
-std::string draw_world(const World& world, std::span<const TrueTrack> tracks) {
+std::string draw_world(const World& world, std::span<const TrueTrack> tracks, std::span<const WorldNote> notes) {
   const Paper paper(world);
   SvgDrawing drawing(paper.size().x(), paper.size().y());
   for (const Route& route : world.routes) {
@@ -80,6 +88,7 @@ std::string draw_world(const World& world, std::span<const TrueTrack> tracks) {
   for (const Segment& d : world.doors) drawing.line(paper(d.from), paper(d.to), {charts::kOverlap, 3, "6 5"});
   for (const Segment& w : world.walls) drawing.line(paper(w.from), paper(w.to), {charts::kWall, 2, ""});
   draw_robots(drawing, paper, tracks);
+  for (const WorldNote& note : notes) draw_note(drawing, paper, note);
   draw_scale_bar(drawing, paper);
   drawing.text({paper.size().x() - kMargin, paper.size().y() - 26}, world.name, {14, "end", charts::kText, true});
   return drawing.finish();

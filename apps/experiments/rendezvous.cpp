@@ -6,6 +6,8 @@
 #include "apps/experiments/list.hpp"
 #include "apps/explore_quality.hpp"
 #include "apps/explore_run.hpp"
+#include "apps/map_outputs.hpp"
+#include "apps/world_picture.hpp"
 
 namespace helicoid {
 
@@ -17,23 +19,25 @@ constexpr double kSame = 1.0;  // metres: places that far from where they were s
 constexpr std::array<std::size_t, 4> kEitherWing{0, 1, 2, 3};
 constexpr std::array<std::size_t, 4> kOneWing{0, 1, 4, 5};
 
-/// Who begins where somebody else began must come when those have gone on: else they see each other at once.
-constexpr double kLater = 120;  // seconds
+/// Who begins where others have been must come when those have gone on: else they see each other at once.
+constexpr double kLater = 240;  // seconds
 
 /// What is done about places of two islands that look alike.
 enum class Policy : std::uint8_t { meet, wait, believe };
 
 /// An answer, in terms that outlive the map.
 struct Answer {
-  MeetingOutcome outcome;
+  Settled settled;
   RobotAtStamp a, b;
   Pose2 T_a_b;
+  double at_s = 0;
+  Pose2 T_world_watcher, T_world_shown;  ///< where the two truly were then
 };
 
 struct MetRun {
   ExploreRun run;
   std::vector<Answer> answers;
-  double first_answer_s = 0;
+  double joined_s = 0;  ///< when robots of both pairs were on one island; if never, when all was over
   std::size_t wrong_merges = 0;
 };
 
@@ -56,28 +60,33 @@ double farthest_off(const LiveSimulation& simulation, const Map& map) {
   return farthest;
 }
 
-/// Follows a run: what was settled, and which joins were wrong.
+/// Follows a run: what was settled, when the pairs' maps became one, and which joins were wrong.
 class Witness {
  public:
   bool look(double now, const LiveSimulation& simulation, const TeamPilot& pilot) {
     const Map& map = pilot.map();
     for (const Settled& settled : pilot.team_plan().settled) {
       const Hypothesis& h = pilot.mapper().ledger()[settled.doubt];
-      if (answers_.empty()) first_answer_s_ = now;
-      answers_.push_back({settled.outcome, first_place(map, h), second_place(map, h), h.T_a_b.T_a_b});
+      answers_.push_back({settled, first_place(map, h), second_place(map, h), h.T_a_b.T_a_b, now,
+                          simulation.T_world_robot(settled.watcher.index()),
+                          simulation.T_world_robot(settled.shown.index())});
     }
     const std::size_t merges = map.island_count() - map.islands().size();
     if (merges > merges_ && farthest_off(simulation, map) > kSame) ++wrong_merges_;
     merges_ = merges;
+    const auto is_mapped = [](const RobotRecord& robot) { return !robot.trajectory.empty(); };
+    const bool all_here = std::all_of(map.robots().begin(), map.robots().end(), is_mapped);
+    if (joined_s_ == 0 && all_here && map.islands().size() == 1) joined_s_ = now;
     return true;
   }
   [[nodiscard]] MetRun report(ExploreRun run) && {
-    return {std::move(run), std::move(answers_), first_answer_s_, wrong_merges_};
+    const double joined_s = joined_s_ > 0 ? joined_s_ : run.sim_s;
+    return {std::move(run), std::move(answers_), joined_s, wrong_merges_};
   }
 
  private:
   std::vector<Answer> answers_;
-  double first_answer_s_ = 0;
+  double joined_s_ = 0;
   std::size_t merges_ = 0, wrong_merges_ = 0;
 };
 
@@ -111,17 +120,27 @@ std::size_t wrong_answers(const MetRun& met) {
   return static_cast<std::size_t>(std::count_if(met.answers.begin(), met.answers.end(), [&](const Answer& answer) {
     const Pose2 T_true = true_pose(met.run, answer.a).inverse() * true_pose(met.run, answer.b);
     const bool is_one = (T_true.translation() - answer.T_a_b.translation()).norm() < kSame;
-    return is_one != (answer.outcome == MeetingOutcome::met);
+    return is_one != (answer.settled.outcome == MeetingOutcome::met);
   }));
 }
 
+/// By meetings: not what others learned by chance while two were on their way.
 double answers_of(const MetRun& met, MeetingOutcome outcome) {
-  return static_cast<double>(std::count_if(met.answers.begin(), met.answers.end(),
-                                           [&](const Answer& answer) { return answer.outcome == outcome; }));
+  return static_cast<double>(std::count_if(met.answers.begin(), met.answers.end(), [&](const Answer& answer) {
+    return answer.settled.outcome == outcome && !answer.settled.by_chance;
+  }));
+}
+
+/// How likely a sighting was where absence was counted least surely, percent.
+double least_chance(const MetRun& met) {
+  double least = 1;
+  for (const Answer& answer : met.answers) least = std::min(least, answer.settled.chance);
+  return 100 * least;
 }
 
 /// What is asked of each policy.
 void report(std::vector<Metric>& metrics, const std::string& prefix, const MetRun& met, const MapQuality& quality) {
+  metrics.push_back({prefix + "joined_s", met.joined_s});
   metrics.push_back({prefix + "explored_s", met.run.sim_s});
   metrics.push_back({prefix + "wrong_merges_count", static_cast<double>(met.wrong_merges)});
   metrics.push_back({prefix + "islands_count", static_cast<double>(met.run.map.mapper.map().islands().size())});
@@ -129,7 +148,48 @@ void report(std::vector<Metric>& metrics, const std::string& prefix, const MetRu
   metrics.push_back({prefix + "collisions_count", static_cast<double>(met.run.contacts.size())});
 }
 
-Result<Outcome> settle_doubts(std::span<const std::size_t> starts, bool compare, std::uint64_t seed) {
+/// Where the two of each meeting truly were when it was settled, and how all had got there.
+ExperimentPicture draw_meetings(const World& world, const MetRun& met, const std::string& name) {
+  std::vector<WorldNote> notes;
+  double last = 0;
+  for (const Answer& answer : met.answers) {
+    const bool is_one = answer.settled.outcome == MeetingOutcome::met;
+    notes.push_back({answer.T_world_watcher.translation(), answer.T_world_shown.translation(),
+                     fmt::format("{} at {:.0f} s", is_one ? "met" : "distinct", answer.at_s)});
+    last = answer.at_s;
+  }
+  std::vector<TrueTrack> until = met.run.recording.tracks();
+  for (TrueTrack& track : until) {
+    const auto end = std::upper_bound(track.stamps.begin(), track.stamps.end(), LiveSimulation::kFirstStamp + last);
+    track.T_world_robot.resize(static_cast<std::size_t>(end - track.stamps.begin()));
+  }
+  return {name, draw_world(world, until, notes)};
+}
+
+ExperimentPicture draw_map(const MetRun& met, const std::string& name) {
+  const Map& map = met.run.map.mapper.map();
+  const MapReport islands = report_on(map, true);
+  return {name, to_svg(draw_sketch(map, islands, islands.islands.front(), 1))};
+}
+
+/// What came of the meetings themselves.
+std::vector<Metric> metrics_of(const MetRun& met, bool one_wing) {
+  const double ones = answers_of(met, MeetingOutcome::met);
+  const double distinct = answers_of(met, MeetingOutcome::absent);
+  const double by_chance = static_cast<double>(met.answers.size()) - ones - distinct;
+  // Of which kind there should be any follows from where the robots begin.
+  return {one_wing ? Metric{"met_runs_ratio", ones > 0 ? 1.0 : 0.0}
+                   : Metric{"distinct_runs_ratio", distinct > 0 ? 1.0 : 0.0},
+          {"met_count", ones},
+          {"distinct_count", distinct},
+          {"joined_meanwhile_count", by_chance},
+          {"settled_wrongly_count", static_cast<double>(wrong_answers(met))},
+          {"least_chance_percent", least_chance(met)},
+          {"first_settled_s", met.answers.empty() ? met.run.sim_s : met.answers.front().at_s}};
+}
+
+Result<Outcome> settle_doubts(const std::string& name, std::span<const std::size_t> starts, bool compare,
+                              std::uint64_t seed) {
   const Result<World> world = load_world("wings");
   if (!world) return tl::unexpected(world.error());
   std::vector<Pose2> places;
@@ -141,22 +201,15 @@ Result<Outcome> settle_doubts(std::span<const std::size_t> starts, bool compare,
   };
   const Result<MetRun> met = explore(*world, starts, Policy::meet, seed);
   if (!met) return tl::unexpected(met.error());
-  const double ones = answers_of(*met, MeetingOutcome::met);
-  const double distinct = answers_of(*met, MeetingOutcome::absent);
-  Outcome outcome;
-  // Of which kind there should be any follows from where the robots begin.
-  outcome.metrics = {starts[2] == kOneWing[2] ? Metric{"met_runs_ratio", ones > 0 ? 1.0 : 0.0}
-                                              : Metric{"distinct_runs_ratio", distinct > 0 ? 1.0 : 0.0},
-                     {"met_count", ones},
-                     {"distinct_count", distinct},
-                     {"settled_wrongly_count", static_cast<double>(wrong_answers(*met))},
-                     {"first_settled_s", met->answers.empty() ? met->run.sim_s : met->first_answer_s}};
+  Outcome outcome{metrics_of(*met, starts[2] == kOneWing[2]), {}};
   report(outcome.metrics, "", *met, judged(*met));
   if (!compare) return outcome;
-  for (const auto& [policy, prefix] : {std::pair{Policy::wait, "waiting_"}, std::pair{Policy::believe, "greedy_"}}) {
+  if (seed == 1) outcome.pictures = {draw_meetings(*world, *met, name), draw_map(*met, name + "-map")};
+  for (const auto& [policy, prefix] : {std::pair{Policy::wait, "waiting"}, std::pair{Policy::believe, "greedy"}}) {
     const Result<MetRun> other = explore(*world, starts, policy, seed);
     if (!other) return tl::unexpected(other.error());
-    report(outcome.metrics, prefix, *other, judged(*other));
+    report(outcome.metrics, prefix + std::string("_"), *other, judged(*other));
+    if (seed == 1 && policy == Policy::believe) outcome.pictures.push_back(draw_map(*other, name + "-greedy"));
   }
   return outcome;
 }
@@ -169,28 +222,31 @@ Experiment rendezvous_experiment() {
   e.question = "Do robots that arrange to meet settle whether two places are one?";
   e.method =
       "A building with two wings that are alike to the millimetre; two pairs of robots that know nothing of one "
-      "another begin one in either wing; or the second, two minutes later, in the wing in which the first began. "
-      "Where places of the two maps look alike a robot of either is sent: if the places were one they would see each "
-      "other. Settled wrongly: accepted, though the places are more than a metre from where that has them, or "
-      "recorded as distinct though they are not. A merge is wrong if robots that it joins are more than a metre from "
-      "where the map has them relative to one another. The same beside without rendezvous (waiting: islands are "
-      "joined when robots happen to see each other) and with greedy closure (what looks alike is believed at once). "
-      "Time: until everything is explored and everybody home. Each answer is to occur in half of the runs at least in"
-      " which it is the right one.";
-  e.bars = {{"met_runs_ratio", 0.5, std::nullopt, true},
-            {"distinct_runs_ratio", 0.5, std::nullopt, true},
-            {"settled_wrongly_count", std::nullopt, 0.0, false},
-            {"wrong_merges_count", std::nullopt, 0.0, false},
-            {"collisions_count", std::nullopt, 0.0, false}};
+      "another begin one in either wing; or the second, four minutes later, elsewhere in the wing in which the first "
+      "began. Where places of the two maps look alike and it is worth the way, a robot of either is sent: if the "
+      "places were one they would see each other. Met: they did, at the two places or one of them on the way there; "
+      "distinct: both stood there and did not, though a sighting would have been as likely as given (least chance); "
+      "joined meanwhile: other robots saw each other by chance before. Settled wrongly: accepted, though the places "
+      "are more than a metre from where that has them, or recorded as distinct though they are not. A merge is wrong "
+      "if robots that it joins are more than a metre from where the map has them relative to one another. The same "
+      "beside without rendezvous (waiting: islands are joined when robots happen to see each other) and with greedy "
+      "closure (what looks alike is believed at once). Joined: both pairs are on one map. Explored: nothing is left to "
+      "look at, and everybody is home. Each answer is to occur in half of the runs at least of the case in which it "
+      "is asked for: a pair that begins where another has been must be met, though it is also told that it is not in "
+      "the other wing. The pictures show the first run of each case: the building with the two of each meeting where "
+      "they were when it was settled, and the map with meetings and with greedy closure.";
+  e.bars = {{"met_runs_ratio", 0.5, std::nullopt, true},         {"distinct_runs_ratio", 0.5, std::nullopt, true},
+            {"settled_wrongly_count", std::nullopt, 0.0, false}, {"least_chance_percent", 95.0, std::nullopt, false},
+            {"wrong_merges_count", std::nullopt, 0.0, false},    {"collisions_count", std::nullopt, 0.0, false}};
   e.seeds = 10;
   e.quick_seeds = 1;
   e.cases = [](const ExperimentOptions& options) {
     const bool compare = !options.quick;
-    std::vector<ExperimentCase> cases{
-        {"either-wing", true, "", [=](std::uint64_t seed) { return settle_doubts(kEitherWing, compare, seed); }}};
-    if (options.quick) return cases;
-    cases.push_back({"one-wing", true, "", [](std::uint64_t seed) { return settle_doubts(kOneWing, true, seed); }});
-    return cases;
+    const auto from = [compare](const std::string& name, std::span<const std::size_t> starts) {
+      return ExperimentCase{name, true, "",
+                            [=](std::uint64_t seed) { return settle_doubts(name, starts, compare, seed); }};
+    };
+    return std::vector<ExperimentCase>{from("either-wing", kEitherWing), from("one-wing", kOneWing)};
   };
   return e;
 }

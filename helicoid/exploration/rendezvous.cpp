@@ -29,6 +29,26 @@ bool lays_alike(const Map& map, const Doubt& first, const Doubt& second, const P
   return map.island_of(first.a) != map.island_of(first.b) && off.distance() <= alike && std::abs(off.yaw) <= kTurn;
 }
 
+Settled met(const Meeting& meeting) {
+  Settled settled;
+  settled.doubt = meeting.doubt.id;
+  settled.outcome = MeetingOutcome::met;
+  settled.watcher = meeting.watcher_robot;
+  settled.shown = meeting.shown_robot;
+  settled.chance = 1;
+  return settled;
+}
+
+/// Robots that saw each other have joined the islands of the two places, and the doubt has outlived it: the map has the
+/// places where the doubt has them.
+Settled settled_on_the_way(const Meeting& meeting) {
+  Settled settled = met(meeting);
+  settled.by_chance = !meeting.brought_together;
+  settled.reason = settled.by_chance ? "the two places are one: others of their islands saw each other meanwhile"
+                                     : "the two places are one: who was sent there met the others on the way";
+  return settled;
+}
+
 ManifoldPoint watcher_post(const Doubt& doubt, const Posts& posts) {
   return {doubt.a, posts.T_a_watcher.translation()};
 }
@@ -89,9 +109,10 @@ Goal Meeting::goal_of(RobotId robot) const {
 
 void RendezvousDesk::begin(double now, const Map& map, const Doubt& doubt, const Posts& posts, const Pairing& pair,
                            std::span<const TeamMember> members) {
-  const double deadline = now + options_.patience + pair.longest / options_.slowest;
-  meetings_.push_back({doubt, posts, pair.watcher, pair.shown, members[pair.watcher].robot, members[pair.shown].robot,
-                       deadline, -1, false, map.island_of(doubt.a) != map.island_of(doubt.b)});
+  Meeting meeting{doubt, posts, pair.watcher, pair.shown, members[pair.watcher].robot, members[pair.shown].robot};
+  meeting.deadline = now + options_.patience + pair.longest / options_.slowest;
+  meeting.between_islands = map.island_of(doubt.a) != map.island_of(doubt.b);
+  meetings_.push_back(std::move(meeting));
 }
 
 const Meeting* RendezvousDesk::meeting_of(RobotId robot) const {
@@ -139,7 +160,10 @@ bool RendezvousDesk::is_resting(double now, const Doubt& doubt) const {
 
 void RendezvousDesk::saw(const SeenTeammate& sighting) {
   for (Meeting& meeting : meetings_) {
-    if (meeting.there_since < 0 || !meeting.has(sighting.observer) || !meeting.has(sighting.observed)) continue;
+    const bool observes = meeting.has(sighting.observer);
+    const bool is_observed = meeting.has(sighting.observed);
+    if (sighting.between_islands && (observes || is_observed)) meeting.brought_together = true;
+    if (meeting.there_since < 0 || !observes || !is_observed) continue;
     const Vector2d between =
         (meeting.posts.T_a_watcher.inverse() * meeting.doubt.T_a_b.T_a_b * meeting.posts.T_b_shown).translation();
     const double allowed =
@@ -162,26 +186,10 @@ bool RendezvousDesk::stand_there(const Meeting& meeting, const Map& map, std::sp
          stands(meeting.shown, shown_post(meeting.doubt, meeting.posts), meeting.posts.T_b_shown.yaw);
 }
 
-std::optional<Settled> RendezvousDesk::judge_by_join(const Map& map, const Meeting& meeting) const {
-  const Doubt& doubt = meeting.doubt;
-  if (!meeting.between_islands || map.island_of(doubt.a) != map.island_of(doubt.b)) return std::nullopt;
-  const Pose2 T_a_b = map.T_plane_patch(doubt.a).inverse() * map.T_plane_patch(doubt.b);
-  const double off = (doubt.T_a_b.T_a_b.translation() - T_a_b.translation()).norm();
-  Settled settled{doubt.id, MeetingOutcome::met, meeting.watcher_robot, meeting.shown_robot, 1, ""};
-  if (off <= options_.range_error + confidence_interval(doubt.T_a_b.covariance).position) {
-    settled.reason = "robots of both saw each other on the way, and the two places are one";
-  } else {
-    settled.outcome = MeetingOutcome::absent;
-    settled.reason =
-        fmt::format("robots of both saw each other on the way, and the two places lie {:.1f} m from one another", off);
-  }
-  return settled;
-}
-
 std::optional<Settled> RendezvousDesk::judge(double now, const Map& map, Meeting& meeting,
                                              std::span<const TeamMember> members) const {
   const auto looks = static_cast<int>((now - meeting.there_since) / options_.sighting.period);
-  Settled settled{meeting.doubt.id, MeetingOutcome::met, meeting.watcher_robot, meeting.shown_robot, 1, ""};
+  Settled settled = met(meeting);
   if (meeting.sighted) {
     settled.reason = "the robots stood at both places and saw each other";
     return settled;
@@ -206,11 +214,6 @@ std::vector<Settled> RendezvousDesk::step(double now, const Map& map, std::span<
                                           std::span<const Travel> travel, std::span<const Doubt> doubts) {
   std::vector<Settled> settled;
   std::erase_if(meetings_, [&](Meeting& meeting) {
-    if (std::optional<Settled> known = judge_by_join(map, meeting)) {
-      past_of(meeting.doubt).settled = true;
-      settled.push_back(std::move(*known));
-      return true;
-    }
     const auto same = [&](const Doubt& d) { return d.id == meeting.doubt.id; };
     const auto doubt = std::find_if(doubts.begin(), doubts.end(), same);
     const auto member_of = [&](RobotId robot) {
@@ -222,6 +225,11 @@ std::vector<Settled> RendezvousDesk::step(double now, const Map& map, std::span<
     meeting.watcher = member_of(meeting.watcher_robot);
     meeting.shown = member_of(meeting.shown_robot);
     if (doubt == doubts.end()) return true;
+    if (meeting.between_islands && map.island_of(meeting.doubt.a) == map.island_of(meeting.doubt.b)) {
+      past_of(meeting.doubt).settled = true;
+      settled.push_back(settled_on_the_way(meeting));
+      return true;
+    }
     if (meeting.watcher == members.size() || meeting.shown == members.size() || now > meeting.deadline) {
       Past& past = past_of(meeting.doubt);
       ++past.failures;

@@ -45,7 +45,8 @@ struct Settled {
   std::size_t doubt = 0;
   MeetingOutcome outcome = MeetingOutcome::absent;
   RobotId watcher, shown;
-  double chance = 0;  ///< of a sighting, if the places were one
+  double chance = 0;       ///< of a sighting, if the places were one
+  bool by_chance = false;  ///< islands were joined meanwhile, and neither of the two had part in it
   std::string reason;
 };
 
@@ -56,9 +57,10 @@ struct Meeting {
   std::size_t watcher = 0, shown = 0;  ///< places in the list of members
   RobotId watcher_robot, shown_robot;
   double deadline = 0;
-  double there_since = -1;  ///< both at their posts; below 0: not yet
-  bool sighted = false;
-  bool between_islands = false;  ///< when it began
+  double there_since = -1;        ///< both at their posts; below 0: not yet
+  bool sighted = false;           ///< by one another, at their posts
+  bool brought_together = false;  ///< one of them and a robot of another island saw each other, anywhere
+  bool between_islands = false;   ///< when it began
 
   [[nodiscard]] bool has(RobotId robot) const { return robot == watcher_robot || robot == shown_robot; }
   [[nodiscard]] Goal goal_of(RobotId robot) const;
@@ -77,7 +79,8 @@ struct Pairing {
 struct SeenTeammate {
   double stamp = 0;
   RobotId observer, observed;
-  std::optional<double> range;  ///< metres
+  std::optional<double> range;   ///< metres
+  bool between_islands = false;  ///< the two were on different ones
 };
 
 class RendezvousDesk {
@@ -89,7 +92,8 @@ class RendezvousDesk {
   /// Sends a pair; its members are told by goal_of until the meeting ends.
   void begin(double now, const Map& map, const Doubt& doubt, const Posts& posts, const Pairing& pair,
              std::span<const TeamMember> members);
-  /// Looks after the meetings: what has been settled since the last call. Those whose doubts are gone are ended.
+  /// Looks after the meetings: what has been settled since the last call. `doubts`: all that are open, which those are
+  /// not that the map contradicts; meetings about others are ended.
   std::vector<Settled> step(double now, const Map& map, std::span<const TeamMember> members,
                             std::span<const Travel> travel, std::span<const Doubt> doubts);
 
@@ -115,8 +119,6 @@ class RendezvousDesk {
                                  std::span<const Travel> travel) const;
   [[nodiscard]] std::optional<Settled> judge(double now, const Map& map, Meeting& meeting,
                                              std::span<const TeamMember> members) const;
-  /// Robots that saw each other, these or others, have joined the islands of the two places: the map tells.
-  [[nodiscard]] std::optional<Settled> judge_by_join(const Map& map, const Meeting& meeting) const;
   Past& past_of(const Doubt& doubt);
 
   RendezvousOptions options_;

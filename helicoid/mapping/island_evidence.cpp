@@ -157,7 +157,6 @@ void IslandProposals::look(MapInProgress& progress, LoopCloser& closer, const Ma
                            const IslandEvidenceOptions& options) {
   const Map& map = progress.map;
   closer.follow_ways(map);
-  std::erase_if(waiting_, [&](std::size_t entry) { return is_answered(map, closer, entry, options); });
   const std::vector<PatchId> places = new_places(map, closer, options);
   const std::vector<Island> islands = map.islands();
   for (const Island& there : islands) {
@@ -171,6 +170,10 @@ void IslandProposals::look(MapInProgress& progress, LoopCloser& closer, const Ma
       closer.consider_between(map, progress.graph, std::move(*h), false);
     }
   }
+}
+
+void IslandProposals::answer(const Map& map, LoopCloser& closer, const IslandEvidenceOptions& options) {
+  std::erase_if(waiting_, [&](std::size_t entry) { return is_answered(map, closer, entry, options); });
 }
 
 bool act_on_or_join(MapInProgress& progress, LoopCloser& closer, std::span<const std::size_t> accepted,

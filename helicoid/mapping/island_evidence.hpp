@@ -20,13 +20,14 @@ struct IslandEvidenceOptions {
 bool join_on_evidence(MapInProgress& progress, LoopCloser& closer, bool may_join, const MapperOptions& mapper,
                       const IslandEvidenceOptions& options = {});
 
-/// The same while robots drive, as proposals that nobody acts on: what was mapped since the last call is looked for on
-/// all other islands. Where islands have been joined since, by other evidence, proposals that would have joined them
-/// otherwise are rejected.
+/// The same while robots drive, as proposals that nobody acts on.
 class IslandProposals {
  public:
+  /// What was mapped since the last call is looked for on all other islands.
   void look(MapInProgress& progress, LoopCloser& closer, const MapperOptions& mapper,
             const IslandEvidenceOptions& options = {});
+  /// To be called when islands were joined: proposals that would have joined them otherwise are rejected.
+  void answer(const Map& map, LoopCloser& closer, const IslandEvidenceOptions& options = {});
 
  private:
   [[nodiscard]] std::vector<PatchId> new_places(const Map& map, const LoopCloser& closer,

@@ -83,6 +83,34 @@ TEST(Islands, OneSightingMakesOneOfTwoAndTheirWallsMeet) {
   EXPECT_LT(worst, 0.10);
 }
 
+TEST(Islands, WhenTheyAreJoinedNoProposalStaysOpenThatTheMapContradicts) {
+  const TwoDrives drives;
+  Mapper mapper;
+  mapper.add_robot("first", {synthetic::lms200()});
+  mapper.add_robot("second", {synthetic::lms200()});
+  const std::size_t count = std::min(drives.first.events.size(), drives.second.events.size());
+  std::size_t proposals = 0;
+  for (std::size_t i = 0; i <= count / 2 + 1; ++i) {
+    if (i == count / 2) {
+      mapper.propose();
+      proposals = mapper.ledger().size();
+      mapper.process(drives.sight(i));
+    }
+    mapper.process(drives.first.events[i]);
+    Event event = drives.second.events[i];
+    event.robot = make_id<RobotId>(1);
+    mapper.process(event);
+  }
+  const Map& map = mapper.map();
+  ASSERT_EQ(map.islands().size(), 1U);
+  EXPECT_GT(proposals, 0U);
+  for (const Hypothesis& h : mapper.ledger()) {
+    if (!h.is_undecided()) continue;
+    const Pose2 T_a_b = map.T_plane_patch(h.a).inverse() * map.T_plane_patch(h.b);
+    EXPECT_LT((T_a_b.translation() - h.T_a_b.T_a_b.translation()).norm(), 1.0);
+  }
+}
+
 /// Entries of the ledger that compare two places of one robot.
 std::size_t comparisons_within_robots(const Mapper& mapper) {
   const auto& ledger = mapper.ledger();

@@ -117,6 +117,7 @@ void Mapper::State::join_what_is_determined(bool last) {
     changed = changed || joined || tied;
   }
   if (changed) {
+    proposals.answer(map, closer);
     for (RobotState& robot : robots) robot.stale = true;
   }
   times.close_s += thread_seconds() - began;
@@ -252,6 +253,7 @@ void Mapper::decide(const Decision& decision) {
   if (accepted.empty()) return;
   JoinTrials trials;
   act_on_or_join(progress, s.closer, accepted, trials, s.options);
+  s.proposals.answer(s.map, s.closer);
   for (RobotState& robot : s.robots) robot.stale = true;
 }
 

@@ -11,6 +11,12 @@ struct ManifoldPoint {
   friend bool operator==(const ManifoldPoint&, const ManifoldPoint&) = default;
 };
 
+/// A way to look.
+struct ManifoldHeading {
+  PatchId patch;
+  double heading_patch = 0;  ///< radians
+};
+
 [[nodiscard]] inline ManifoldPoint point_of(const ManifoldPose& pose) {
   return {pose.patch, pose.T_patch_robot.translation()};
 }

@@ -27,9 +27,9 @@ double bearing_of(const Vector2d& p) {
 
 }  // namespace
 
-void RouteFollower::follow(ManifoldRoute route, std::optional<double> heading_patch) {
+void RouteFollower::follow(ManifoldRoute route, std::optional<ManifoldHeading> heading) {
   route_ = std::move(route);
-  heading_patch_ = heading_patch;
+  heading_ = heading;
   cursor_ = {};
 }
 
@@ -100,8 +100,8 @@ std::optional<Vector2d> RouteFollower::place_to_the_right(std::span<const Vector
 
 FollowStep RouteFollower::finish(const Map& map, const ManifoldPose& robot, double left) {
   FollowStep step{{}, FollowStatus::arrived, left, std::nullopt};
-  if (!heading_patch_) return step;
-  const double heading = map.T_plane_patch(route_.points.back().patch).yaw + *heading_patch_;
+  if (!heading_) return step;
+  const double heading = map.T_plane_patch(heading_->patch).yaw + heading_->heading_patch;
   const double turn = wrap_angle(heading - map.project(robot).yaw);
   if (std::abs(turn) < options_.heading_arrived) return step;
   step.command = turn_to(turn);

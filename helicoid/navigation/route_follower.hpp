@@ -46,8 +46,8 @@ class RouteFollower {
  public:
   explicit RouteFollower(const FollowerOptions& options = {}) : options_(options) {}
 
-  /// From now on this route (found), and at its end turned to this heading in the frame of its last point's patch.
-  void follow(ManifoldRoute route, std::optional<double> heading_patch = std::nullopt);
+  /// From now on this route (found), and at its end turned to this heading, on a patch near there.
+  void follow(ManifoldRoute route, std::optional<ManifoldHeading> heading = std::nullopt);
   /// No route any more: idle.
   void stop();
   [[nodiscard]] const ManifoldRoute& route() const { return route_; }
@@ -85,7 +85,7 @@ class RouteFollower {
 
   FollowerOptions options_;
   ManifoldRoute route_;
-  std::optional<double> heading_patch_;
+  std::optional<ManifoldHeading> heading_;
   RouteCursor cursor_;
   LiveObstacles obstacles_;
   std::deque<Trail> trail_;
