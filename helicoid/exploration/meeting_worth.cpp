@@ -51,8 +51,8 @@ double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> 
     ++all;
     if (desk.asks_the_same(map, doubt, other)) ++alike;
   }
-  const double usual = (record.met + 1.0) / (record.met + record.absent + 2.0);
-  return usual * alike / all / (1 + doubt.ambiguity);
+  const double usual = (record.met + 1.0) / (record.met + record.absent + 1.0);
+  return usual * std::min(alike / all, 1 / (1 + doubt.ambiguity));
 }
 
 bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,

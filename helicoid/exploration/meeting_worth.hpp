@@ -22,8 +22,9 @@ struct MeetingRecord {
 };
 
 /// The probability that a doubt's two places are one. Of what contradicts one another between two islands one is right
-/// at most: a doubt has the share of those that would join them alike; a rival placement that fits as well halves it.
-/// And meetings tell how look-alikes fare in this building (Laplace's rule of succession).
+/// at most: a doubt has the share of those that would join them alike, and half if a rival placement fits as well
+/// (which may be one of them). And meetings tell how look-alikes fare in this building: until they do,
+/// one of a doubt and its rivals is taken to be right.
 [[nodiscard]] double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> open,
                                    const RendezvousDesk& desk, const MeetingRecord& record);
 

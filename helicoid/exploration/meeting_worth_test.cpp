@@ -36,7 +36,7 @@ TEST(MeetingWorth, OfDoubtsThatContradictOneAnotherOneIsTrueAtMost) {
 TEST(MeetingWorth, WhereLookAlikesWereDistinctTheNextOneIsBelievedLess) {
   const LookAlikes one(1);
   EXPECT_LT(one.likelihood({0, 3}), one.likelihood());
-  EXPECT_GT(one.likelihood({3, 0}), one.likelihood());
+  EXPECT_GT(one.likelihood({1, 3}), one.likelihood({0, 3}));
 }
 
 TEST(MeetingWorth, ARivalPlacementThatFitsAsWellHalvesIt) {
