@@ -159,7 +159,7 @@ ExperimentPicture draw_load(const SwarmRun& run) {
   islands.title = "islands";
   islands.y_label = "islands";
   islands.series = {{"", run.islands, charts::robot_colour(1), Series::Look::line}};
-  return {"load", draw_charts({load, islands})};
+  return {fmt::format("load-of-{}", run.mapped.map().robots().size()), draw_charts({load, islands})};
 }
 
 Outcome judge(const SwarmRun& run, std::uint64_t seed) {
