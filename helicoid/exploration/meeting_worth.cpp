@@ -42,12 +42,11 @@ double worth_of(const TeamAtWork& team, std::span<const std::uint8_t> is_free, c
 
 double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> open, const RendezvousDesk& desk,
                      const MeetingRecord& record) {
+  const bool between_islands = map.island_of(doubt.a) != map.island_of(doubt.b);
   double alike = 1;
   double all = 1;
   for (const Doubt& other : open) {
-    const bool is_rival = other.id != doubt.id && map.island_of(doubt.a) != map.island_of(doubt.b) &&
-                          is_between_the_same(map, doubt, other);
-    if (!is_rival) continue;
+    if (!between_islands || other.id == doubt.id || !is_between_the_same(map, doubt, other)) continue;
     ++all;
     if (desk.asks_the_same(map, doubt, other)) ++alike;
   }

@@ -63,7 +63,7 @@ struct AtWork {
     }
   }
   [[nodiscard]] bool is_worth(double likelihood, double longest) const {
-    return is_worth_meeting(alike.builder.map, alike.doubts.front(), likelihood, {0, 1, longest, longest},
+    return is_worth_meeting(alike.builder.map, alike.doubts.front(), likelihood, {0, 1, longest},
                             {frontiers, way, is_free}, {});
   }
 };

@@ -89,7 +89,7 @@ std::optional<Pairing> choose_pair(const Posts& posts, const Doubt& doubt, std::
       if (s == w || is_free[s] == 0) continue;
       const double way_s = travel[s](shown_post(doubt, posts));
       if (!std::isfinite(way_s)) continue;
-      const Pairing pair{w, s, way_w + way_s, std::max(way_w, way_s)};
+      const Pairing pair{w, s, std::max(way_w, way_s)};
       if (!best || pair.longest < best->longest) best = pair;
     }
   }

@@ -69,8 +69,7 @@ struct Meeting {
 /// The pair for which the longer of the two ways is shortest; none if no two robots can get there. `travel` by member.
 struct Pairing {
   std::size_t watcher = 0, shown = 0;
-  double ways = 0;     ///< the sum of both, metres
-  double longest = 0;  ///< the longer, metres
+  double longest = 0;  ///< the longer way, metres
 };
 [[nodiscard]] std::optional<Pairing> choose_pair(const Posts& posts, const Doubt& doubt, std::span<const Travel> travel,
                                                  std::span<const std::uint8_t> is_free);

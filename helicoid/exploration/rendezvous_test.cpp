@@ -118,7 +118,7 @@ struct TwoIslands {
     second = {8, other_a, other_b, {{}, Matrix3d::Identity() * 1e-4}, 1};
     members = {{RobotId{0}, {a, {}}, true, 1, {a, Vector2d::Zero()}},
                {RobotId{1}, {b, {}}, true, 1, {b, Vector2d::Zero()}}};
-    desk.begin(0, builder.map, first, {{}, {}, 1}, {0, 1, 10, 5}, members);
+    desk.begin(0, builder.map, first, {{}, {}, 1}, {0, 1, 5}, members);
   }
 };
 
@@ -174,7 +174,7 @@ TEST(Rendezvous, AMeetingThatDoesNotComeAboutIsGivenUpAfterAFewTries) {
   for (int round = 0; round < options.most_tries; ++round) {
     ASSERT_TRUE(rooms.desk.is_open(now, rooms.builder.map, rooms.doubt));
     const Posts posts = *find_posts(rooms.builder.map, rooms.doubt, rooms.travel[1]);
-    rooms.desk.begin(now, rooms.builder.map, rooms.doubt, posts, {0, 1, 10, 5}, rooms.members);
+    rooms.desk.begin(now, rooms.builder.map, rooms.doubt, posts, {0, 1, 5}, rooms.members);
     now += 1000;
     EXPECT_THAT(rooms.step(now), IsEmpty());
     EXPECT_THAT(rooms.desk.meetings(), IsEmpty());

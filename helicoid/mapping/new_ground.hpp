@@ -10,11 +10,12 @@ namespace helicoid {
 [[nodiscard]] bool is_far_from_all(const LocalMap& local, const Pose2& T_anchor_robot, const MapperOptions& options,
                                    double share = 1);
 
-/// The second: the share of the scan's free space that no patch of the local map covers, 0..1, by sampling.
+/// Of a scan's free space, 0..1.
 struct UncoveredShare {
   double of_all = 0;
   double of_near = 0;  ///< of what lies within a few metres
 };
+/// The second: the share of the scan's free space that no patch of the local map covers, by sampling.
 [[nodiscard]] UncoveredShare uncovered_share(const Map& map, const LocalMap& local, const Pose2& T_anchor_robot,
                                              const Scan& scan, const ScanPointExtractor& extractor);
 
