@@ -9,14 +9,23 @@ namespace helicoid {
 
 namespace {
 
-/// Eq. 13: the pose of the new patch that fits all its relations to patches that stay where they are.
-Pose2 fit_alone(std::span<const LocalPatch> views, std::span<const PairMatch> matches, const Pose2& start,
+/// What two poses of the same frame are apart.
+Vector3d difference(const Pose2& T, const Pose2& from) {
+  return {T.x - from.x, T.y - from.y, wrap_angle(T.yaw - from.yaw)};
+}
+
+/// Correspondences speak of where they were found and hold within their gate: along a bare corridor a few of them, which
+/// say next to nothing, would else carry the patch off by metres at once. Metres and radians, per round.
+const Matrix3d kHolds = Vector3d::Constant(1 / (0.15 * 0.15)).asDiagonal();
+
+/// Eq. 13: the pose of the new patch that fits all its relations to patches that stay where they are; the matches were
+/// made at `matched_at`.
+Pose2 fit_alone(std::span<const LocalPatch> views, std::span<const PairMatch> matches, const Pose2& matched_at,
                 const PosePrior& prior, double kappa) {
-  Pose2 T = start;
+  Pose2 T = matched_at;
   for (int iteration = 0; iteration < 3; ++iteration) {
-    Matrix3d H = prior.information;
-    Vector3d g = prior.information * Vector3d(T.x - prior.T_reference_scan.x, T.y - prior.T_reference_scan.y,
-                                              wrap_angle(T.yaw - prior.T_reference_scan.yaw));
+    Matrix3d H = prior.information + kHolds;
+    Vector3d g = prior.information * difference(T, prior.T_reference_scan) + kHolds * difference(T, matched_at);
     for (std::size_t i = 0; i < views.size(); ++i) {
       const Pose2 T_a_b = views[i].T_anchor_patch.inverse() * T;
       const PairExpansion e = expand(matches[i].form, T_a_b);
@@ -64,20 +73,21 @@ RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Pat
                     const RelateOptions& options) {
   RelatedPatch result{prior.T_reference_scan, {}};
   std::vector<PairMatch> matches(views.size());
+  Pose2 matched_at = result.T_anchor_patch;
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t i = 0; i < views.size(); ++i) {
       matches[i] =
           match_patches(map.patch(views[i].patch), patch, views[i].T_anchor_patch.inverse() * result.T_anchor_patch);
       if (matches[i].correspondences < options.min_correspondences) matches[i] = {};
     }
-    const Pose2 matched_at = result.T_anchor_patch;
+    matched_at = result.T_anchor_patch;
     result.T_anchor_patch = fit_alone(views, matches, matched_at, prior, patch.laser.kappa);
     // Correspondences found this near the fitted pose would be found again.
     const Pose2 moved = matched_at.inverse() * result.T_anchor_patch;
     if (moved.distance() < options.settled_position && std::abs(moved.yaw) < options.settled_heading) break;
   }
   if (drop_contradicted(map, views, patch, result.T_anchor_patch, options, matches)) {
-    result.T_anchor_patch = fit_alone(views, matches, prior.T_reference_scan, prior, patch.laser.kappa);
+    result.T_anchor_patch = fit_alone(views, matches, matched_at, prior, patch.laser.kappa);
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (matches[i].correspondences == 0) continue;
