@@ -47,6 +47,9 @@ Result<void> add_robots(const MapJob& job, MergedLogs& logs, MapRun& run) {
         if (!named) return tl::unexpected(named.error());
         laser = *named;
       }
+      for (double* noise : {&laser.range_sigma, &laser.incidence_bias, &laser.floor_position, &laser.floor_heading}) {
+        *noise *= job.laser_noise;
+      }
       run.lasers.push_back(fmt::format("{}: {}", robot.logs.name, describe(laser)));
     }
     robot.reader->set_lasers(lasers);

@@ -14,9 +14,10 @@ namespace helicoid {
 
 struct MapJob {
   std::vector<RobotLogs> robots;
-  std::string laser;      ///< a shipped model's name or a file; empty: as recognised
-  std::size_t every = 1;  ///< only every n-th scan of a robot
-  double from = 0;        ///< seconds since the robot's first stamp
+  std::string laser;       ///< a shipped model's name or a file; empty: as recognised
+  double laser_noise = 1;  ///< times what the laser is taken to have, all kinds of its noise
+  std::size_t every = 1;   ///< only every n-th scan of a robot
+  double from = 0;         ///< seconds since the robot's first stamp
   double to = 1e300;
   MapperOptions mapper;
   bool sightings = true;  ///< false: the logs' sightings are left out
