@@ -25,6 +25,8 @@ double view_distance(const Pose2& T_anchor_a, const Pose2& T_anchor_b) {
 /// Views no farther apart are as good as one. Where many laps left their patches, the very nearest is another one at
 /// every other step.
 constexpr double kNearEnough = 0.5;
+/// Who stands no farther from his anchor keeps it: another would be no better, and need a local map of its own.
+constexpr double kStays = 0.75;
 
 /// Surfaces of a scan that stand for all of them.
 constexpr std::size_t kSamples = 24;
@@ -181,8 +183,7 @@ std::optional<std::size_t> choose_anchor(const Map& map, const LocalMap& local, 
   const auto knows = [&](const LocalPatch& p) {
     return is_ground(map.patch(p.patch), p.T_anchor_patch.inverse() * T_anchor_robot.translation());
   };
-  if (!local.empty() && view_distance(local[0].T_anchor_patch, T_anchor_robot) < kNearEnough && knows(local[0]))
-    return 0;
+  if (!local.empty() && view_distance(local[0].T_anchor_patch, T_anchor_robot) < kStays && knows(local[0])) return 0;
   std::optional<std::size_t> nearest;
   double least = 0;
   for (std::size_t i = 0; i < local.size(); ++i) {

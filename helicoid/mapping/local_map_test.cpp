@@ -78,7 +78,7 @@ TEST(Anchor, StaysWhileItIsNearHoweverNearAnotherOneIs) {
   const ManyLaps laps;
   const LocalMap local{{PatchId{0}, {}}, {PatchId{ManyLaps::kOfLap}, {0.3, 0, 0}}};
   EXPECT_EQ(choose_anchor(laps.builder.map, local, {0.3, 0, 0}), 0U);
-  EXPECT_EQ(choose_anchor(laps.builder.map, local, {0.6, 0, 0}), 1U);
+  EXPECT_EQ(choose_anchor(laps.builder.map, local, {0.8, 0, 0}), 1U);
 }
 
 }  // namespace
