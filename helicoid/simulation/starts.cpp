@@ -54,6 +54,19 @@ Result<ReachableFloor> find_floor(const World& world, double radius) {
   return find_reachable_floor(world, std::vector<Pose2>{{at.x(), at.y(), 0}}, options);
 }
 
+/// What can be reached from the roomiest place without squeezing by a wall; the rest is no floor. The rays that an
+/// occupancy image shows free between obstacles are just wide enough here and there: who begins in one stays there.
+ReachableFloor without_squeezes(ReachableFloor floor, double radius) {
+  constexpr float kEase = 1.25F;  // of the radius: a passage of half a metre for a robot of 0.4 m
+  for (float& room : floor.room) room = room < kEase * static_cast<float>(radius) ? 0 : room;
+  const auto roomiest = std::max_element(floor.room.begin(), floor.room.end());
+  const Ways ways = ways_from(floor, static_cast<std::size_t>(roomiest - floor.room.begin()));
+  for (std::size_t i = 0; i < floor.room.size(); ++i) {
+    if (ways.length[i] == kFar) floor.room[i] = 0;
+  }
+  return floor;
+}
+
 /// Cells as far from walls as is comfortable; where there are none, nearer to them.
 std::vector<std::size_t> roomy_cells(const ReachableFloor& floor, const StartOptions& options) {
   for (const double room : {options.comfortable, 0.5 * (options.comfortable + options.radius), options.radius}) {
@@ -116,35 +129,42 @@ Result<double> number_of(const std::string& word, const std::string& name, int l
   return value;
 }
 
+/// As many as there is room for.
+std::vector<Pose2> place_on(const ReachableFloor& floor, const World& world, const StartOptions& options) {
+  Random random(options.seed);
+  const std::size_t groups = options.robots >= 2 * options.group ? 2 : 1;
+  const RayCaster walls(world.walls);
+  std::vector<Vector2d> taken;
+  std::vector<Pose2> starts;
+  const std::vector<std::size_t> anchors = choose_anchors(floor, groups, options, random);
+  for (std::size_t g = 0; g < anchors.size(); ++g) {
+    const Ways ways = ways_from(floor, anchors[g]);
+    // The last group takes what is left of an odd number.
+    const std::size_t until = g + 1 == groups ? options.robots : options.robots / groups;
+    double spacing = options.spacing;
+    double room = std::min(options.comfortable, static_cast<double>(floor.room[anchors[g]]));
+    while (starts.size() < until && spacing > 2.5 * options.radius) {
+      const std::optional<std::size_t> cell = next_place(floor, walls, ways, taken, spacing, room);
+      if (!cell) {
+        spacing *= 0.8;
+        room = std::max(options.radius, 0.8 * room);
+        continue;
+      }
+      taken.push_back(floor.centre(*cell));
+      starts.push_back({taken.back().x(), taken.back().y(), random.uniform(-std::numbers::pi, std::numbers::pi)});
+    }
+  }
+  return starts;
+}
+
 }  // namespace
 
 Result<std::vector<Pose2>> place_starts(const World& world, const StartOptions& options) {
   if (options.robots == 0) return fail("a team needs at least one robot");
   const Result<ReachableFloor> floor = find_floor(world, options.radius);
   if (!floor) return tl::unexpected(floor.error());
-  Random random(options.seed);
-  const std::size_t groups = options.robots >= 2 * options.group ? 2 : 1;
-  const RayCaster walls(world.walls);
-  std::vector<Vector2d> taken;
-  std::vector<Pose2> starts;
-  const std::vector<std::size_t> anchors = choose_anchors(*floor, groups, options, random);
-  for (std::size_t g = 0; g < anchors.size(); ++g) {
-    const Ways ways = ways_from(*floor, anchors[g]);
-    // The last group takes what is left of an odd number.
-    const std::size_t until = g + 1 == groups ? options.robots : options.robots / groups;
-    double spacing = options.spacing;
-    double room = std::min(options.comfortable, static_cast<double>(floor->room[anchors[g]]));
-    while (starts.size() < until && spacing > 2.5 * options.radius) {
-      const std::optional<std::size_t> cell = next_place(*floor, walls, ways, taken, spacing, room);
-      if (!cell) {
-        spacing *= 0.8;
-        room = std::max(options.radius, 0.8 * room);
-        continue;
-      }
-      taken.push_back(floor->centre(*cell));
-      starts.push_back({taken.back().x(), taken.back().y(), random.uniform(-std::numbers::pi, std::numbers::pi)});
-    }
-  }
+  std::vector<Pose2> starts = place_on(without_squeezes(*floor, options.radius), world, options);
+  if (starts.size() < options.robots) starts = place_on(*floor, world, options);
   if (starts.size() == options.robots) return starts;
   return fail("{}: has no room for {} robots to begin: {} fit on {:.1f} m^2 of floor", world.name, options.robots,
               starts.size(), floor->area());

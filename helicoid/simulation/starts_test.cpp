@@ -92,6 +92,24 @@ TEST(Starts, OfAWorldWithoutAnyAreInItsLargestClosedSpace) {
   for (const Pose2& start : *starts) EXPECT_TRUE(floor->holds_robot(start.translation()));
 }
 
+/// A room of six metres by six and a ray out of it, ten metres long and 0.46 m wide.
+World room_with_a_ray() {
+  World world;
+  const Vector2d corners[] = {{0, 0}, {6, 0}, {6, 2.77}, {16, 2.77}, {16, 3.23}, {6, 3.23}, {6, 6}, {0, 6}};
+  for (int i = 0; i < 8; ++i) world.walls.push_back({corners[i], corners[(i + 1) % 8]});
+  return world;
+}
+
+TEST(Starts, AreNotInARayThatIsJustWideEnough) {
+  const World world = room_with_a_ray();
+  ASSERT_TRUE(find_reachable_floor(world, std::vector<Pose2>{{3, 3, 0}})->holds_robot({12, 3}));
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto starts = place_starts(world, so_many(4, seed));
+    ASSERT_TRUE(starts.has_value()) << starts.error().message;
+    for (const Pose2& start : *starts) EXPECT_LT(start.x, 6);
+  }
+}
+
 TEST(Starts, AreRefusedWhereThereIsNoRoomForSoMany) {
   World world;
   const Vector2d corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
