@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "helicoid/base/random.hpp"
 #include "tests/synthetic_room.hpp"
 
 namespace helicoid {
@@ -32,6 +33,34 @@ TEST(Relate, LeavesOutAViewThatThePatchContradictsMoreThanItAgrees) {
     const std::vector<LocalPatch> views{{a, {}}};
     EXPECT_TRUE(relate(builder.map, views, builder.map.patch(b), kAbout).relations.empty()) << end;
     EXPECT_FALSE(relate(builder.map, views, builder.map.patch(a), kAbout).relations.empty());
+  }
+}
+
+/// A corridor's walls as a noisy laser shows them.
+std::vector<synthetic::Wall> rough_corridor(Random& random) {
+  constexpr double kStep = 0.2;
+  std::vector<synthetic::Wall> walls;
+  for (const double y : {0.0, 3.0}) {
+    Vector2d last(-60, y);
+    while (last.x() < 60) {
+      const Vector2d next(last.x() + kStep, y + 0.008 * random.normal());
+      walls.push_back({last, next});
+      last = next;
+    }
+  }
+  return walls;
+}
+
+/// They say next to nothing of the way along them, and what they say is chance.
+TEST(Relate, StaysWithinReachOfItsCorrespondencesAlongABareCorridor) {
+  Random random(1);
+  for (int run = 0; run < 60; ++run) {
+    synthetic::Builder builder;
+    const PatchId a = builder.add(rough_corridor(random), {0, 1.5, 0});
+    const PatchId b = builder.add(rough_corridor(random), {0, 1.5, 0});
+    const PosePrior open{{}, Vector3d(0.03, 6e3, 1e5).asDiagonal()};
+    const RelatedPatch related = relate(builder.map, std::vector<LocalPatch>{{a, {}}}, builder.map.patch(b), open);
+    EXPECT_LT(related.T_anchor_patch.distance(), 0.45) << run;
   }
 }
 
