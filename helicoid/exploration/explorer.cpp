@@ -171,6 +171,7 @@ void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
     }
     return least;
   };
+  KnownFloor floor(s.map);
   // While there is other work each plan thinks of a few, in turn.
   int asked = s.frontiers.empty() ? std::numeric_limits<int>::min() : 0;
   for (std::size_t k = 0; k < s.doubts.size(); ++k) {
@@ -185,7 +186,8 @@ void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
     if (!pair) continue;
     const double likelihood = likelihood_of(s.map, doubt, s.doubts, desk_, meetings_);
     const TeamAtWork team{s.frontiers, s.way, s.is_free};
-    if (!is_worth_meeting(s.map, doubt, likelihood, *pair, team, options_.assignment, options_.meeting_worth)) continue;
+    if (!is_worth_meeting(s.map, doubt, likelihood, *pair, team, options_.assignment, floor, options_.meeting_worth))
+      continue;
     desk_.begin(s.now, s.map, doubt, *posts, *pair, s.members);
     keep_meetings(s, plan);
   }

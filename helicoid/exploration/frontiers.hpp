@@ -9,11 +9,12 @@
 
 #include "helicoid/exploration/edge_clusters.hpp"
 #include "helicoid/exploration/ground_window.hpp"
+#include "helicoid/exploration/known_floor.hpp"
 #include "helicoid/exploration/travel.hpp"
 
 namespace helicoid {
 
-/// What a look would newly see, square by square: for telling how much two looks have in common.
+/// What a look would newly see, square by square (FloorSquare): for telling how much two looks have in common.
 struct SeenSquare {
   std::int32_t row = 0;
   std::int32_t column = 0;

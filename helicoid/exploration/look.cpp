@@ -11,6 +11,7 @@ namespace {
 
 /// Cells along a side of a SeenSquare.
 constexpr std::int32_t kSquare = 4;
+static_assert(kSquare * kGroundCell > kSeenSquare - 1e-9 && kSquare * kGroundCell < kSeenSquare + 1e-9);
 
 std::int32_t square_of(std::int32_t cell) {
   return (cell >= 0 ? cell : cell - kSquare + 1) / kSquare;

@@ -1,9 +1,8 @@
 #include "helicoid/exploration/meeting_worth.hpp"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
-#include <tuple>
+#include <limits>
+#include <set>
 
 namespace helicoid {
 
@@ -14,28 +13,83 @@ bool is_between_the_same(const Map& map, const Doubt& x, const Doubt& y) {
   return (same(x.a, y.a) && same(x.b, y.b)) || (same(x.a, y.b) && same(x.b, y.a));
 }
 
-/// The floor that need not be seen twice if the doubt's places are one, m2: half of what is open, each square once.
-double saved_m2(const Map& map, const Doubt& doubt, std::span<const Frontier> frontiers, double reach) {
-  const bool between_islands = map.island_of(doubt.a) != map.island_of(doubt.b);
-  const auto is_near = [&](const Frontier& frontier, PatchId place) {
-    const Vector2d apart = project(map, frontier.middle) - map.T_plane_patch(place).translation();
-    return map.island_of(place) == frontier.island && (between_islands || apart.norm() <= reach);
-  };
-  std::map<std::tuple<IslandId, std::int32_t, std::int32_t>, double> open;
-  for (const Frontier& frontier : frontiers) {
-    if (!is_near(frontier, doubt.a) && !is_near(frontier, doubt.b)) continue;
-    for (const SeenSquare& square : frontier.seen) {
-      double& m2 = open[{frontier.island, square.row, square.column}];
-      m2 = std::max(m2, square.area);
-    }
+/// One place of a doubt and what lies about it.
+struct Side {
+  PatchId place;
+  double reach;  ///< what is counted has its middle so near to the place, metres
+
+  [[nodiscard]] bool is_near(const Map& map, const Vector2d& p_plane) const {
+    return (p_plane - map.T_plane_patch(place).translation()).norm() <= reach;
   }
-  return std::accumulate(open.begin(), open.end(), 0.0, [](double sum, const auto& e) { return sum + 0.5 * e.second; });
+  [[nodiscard]] std::vector<const Frontier*> near(const Map& map, std::span<const Frontier> frontiers) const {
+    std::vector<const Frontier*> near;
+    for (const Frontier& frontier : frontiers) {
+      if (frontier.island != map.island_of(place) || !is_near(map, project(map, frontier.middle))) continue;
+      near.push_back(&frontier);
+    }
+    return near;
+  }
+};
+
+/// The share of the floor that is open on one side which is known on the other, if this transform holds. What is
+/// neither known there nor open is wall there, or nobody has been near.
+double known_share(std::span<const Frontier* const> here, std::span<const Frontier* const> there,
+                   const KnownSquares& known_there, const Pose2& T_there_here) {
+  std::set<FloorSquare> open_there;
+  for (const Frontier* frontier : there) {
+    for (const SeenSquare& square : frontier->seen) open_there.insert({square.row, square.column});
+  }
+  double all = 0;
+  double again = 0;
+  for (const Frontier* frontier : here) {
+    double known = 0;
+    double open = 0;
+    for (const SeenSquare& square : frontier->seen) {
+      const FloorSquare at = square_at(T_there_here * middle_of({square.row, square.column}));
+      if (known_there.has(at)) known += square.area;
+      if (!known_there.has(at) && open_there.contains(at)) open += square.area;
+    }
+    all += frontier->gain_m2;
+    if (known > 0) again += frontier->gain_m2 * known / (known + open);
+  }
+  return all > 0 ? again / all : 0;
+}
+
+/// The floor that would be seen again from one side though it is known from the other, if the doubt's places are one,
+/// m2: the share of what is known there and not here that is known of what one would look at next.
+double again_m2(const Map& map, const Side& here, const Side& there, const Pose2& T_there_here,
+                std::span<const Frontier> frontiers, KnownFloor& floor) {
+  const KnownSquares& known_here = floor.of(map.island_of(here.place));
+  const KnownSquares& known_there = floor.of(map.island_of(there.place));
+  const Pose2 T_here_there = T_there_here.inverse();
+  double beyond = 0;
+  for (const FloorSquare& square : known_there.squares()) {
+    const Vector2d p_there = middle_of(square);
+    if (!there.is_near(map, p_there) || known_here.has(square_at(T_here_there * p_there))) continue;
+    beyond += kSeenSquare * kSeenSquare;
+  }
+  return beyond * known_share(here.near(map, frontiers), there.near(map, frontiers), known_there, T_there_here);
+}
+
+double again_m2(const Map& map, const Doubt& doubt, std::span<const Frontier> frontiers, double reach,
+                KnownFloor& floor) {
+  const bool between_islands = map.island_of(doubt.a) != map.island_of(doubt.b);
+  if (between_islands) reach = std::numeric_limits<double>::infinity();
+  const Side a{doubt.a, reach};
+  const Side b{doubt.b, reach};
+  const Pose2 T_plane_a_plane_b = map.T_plane_patch(doubt.a) * doubt.T_a_b.T_a_b * map.T_plane_patch(doubt.b).inverse();
+  return again_m2(map, a, b, T_plane_a_plane_b.inverse(), frontiers, floor) +
+         again_m2(map, b, a, T_plane_a_plane_b, frontiers, floor);
 }
 
 double worth_of(const TeamAtWork& team, std::span<const std::uint8_t> is_free, const AssignmentOptions& options) {
   const Eigen::MatrixXd way = ways_of_free(team.way, is_free);
   const std::vector<std::optional<std::size_t>> nobody(is_free.size());
   return team_value(team.frontiers, way, nobody, assign_frontiers(team.frontiers, way, nobody, options), options);
+}
+
+bool has_work(const TeamAtWork& team, std::size_t member) {
+  return team.way.row(static_cast<Eigen::Index>(member)).array().isFinite().any();
 }
 
 }  // namespace
@@ -55,13 +109,16 @@ double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> 
 }
 
 bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,
-                      const TeamAtWork& team, const AssignmentOptions& assignment, const MeetingWorthOptions& options) {
+                      const TeamAtWork& team, const AssignmentOptions& assignment, KnownFloor& floor,
+                      const MeetingWorthOptions& options) {
   if (team.frontiers.empty()) return true;
   std::vector<std::uint8_t> others(team.is_free.begin(), team.is_free.end());
   others[pair.watcher] = others[pair.shown] = 0;
-  const double saved = saved_m2(map, doubt, team.frontiers, options.doubt_reach);
-  // Whoever has the shorter way waits for the other.
-  const double cost = 2 * (pair.longest + options.standing_m);
+  const double saved = again_m2(map, doubt, team.frontiers, options.doubt_reach, floor);
+  // Whoever has the shorter way waits for the other; who has nothing to look at loses nothing by it.
+  int busy = 0;
+  for (const std::size_t r : {pair.watcher, pair.shown}) busy += has_work(team, r) ? 1 : 0;
+  const double cost = busy * (pair.longest + options.standing_m);
   return worth_of(team, others, assignment) + likelihood * assignment.metres_per_m2 * saved - cost >=
          worth_of(team, team.is_free, assignment);
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "helicoid/exploration/frontiers.hpp"
+#include "helicoid/exploration/known_floor.hpp"
 #include "helicoid/exploration/rendezvous.hpp"
 #include "helicoid/exploration/team_assignment.hpp"
 
@@ -35,11 +36,11 @@ struct TeamAtWork {
   std::span<const std::uint8_t> is_free;
 };
 
-/// By expected gain. If the places are one, what lies beyond either of them need not be looked at from the other's
-/// side; between two islands that is all that is open on either: neither knows what the other has seen. Where nothing
-/// is left to look at, every meeting is worth its time.
+/// By expected gain. If the places are one, what is known beyond one of them need not be looked at again from the
+/// other's side. What neither side has seen is no reason to meet: whoever gets there first sees something new. Where
+/// nothing is left to look at, every meeting is worth its time.
 [[nodiscard]] bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,
-                                    const TeamAtWork& team, const AssignmentOptions& assignment,
+                                    const TeamAtWork& team, const AssignmentOptions& assignment, KnownFloor& floor,
                                     const MeetingWorthOptions& options = {});
 
 }  // namespace helicoid

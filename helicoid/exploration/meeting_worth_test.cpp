@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "helicoid/manifold/map_editor.hpp"
 #include "tests/synthetic_room.hpp"
 
@@ -63,13 +65,53 @@ struct AtWork {
     }
   }
   [[nodiscard]] bool is_worth(double likelihood, double longest) const {
+    KnownFloor floor(alike.builder.map);
     return is_worth_meeting(alike.builder.map, alike.doubts.front(), likelihood, {0, 1, longest},
-                            {frontiers, way, is_free}, {});
+                            {frontiers, way, is_free}, {}, floor);
   }
 };
 
 TEST(MeetingWorth, WhoHasNothingElseToDoMeets) {
   EXPECT_TRUE(AtWork(0).is_worth(0.01, 500));
+}
+
+/// One robot has seen a room, the other what may be the same room and a long hall beyond it.
+struct RoomAndHall {
+  synthetic::Builder builder;
+  Doubt doubt;
+  std::vector<Frontier> frontiers{1};
+  Eigen::MatrixXd way = Eigen::MatrixXd::Constant(2, 1, std::numeric_limits<double>::infinity());
+  std::vector<std::uint8_t> is_free = {1, 1};
+
+  /// The first has yet to look at one square metre about this place.
+  explicit RoomAndHall(const Vector2d& open_plane) {
+    const PatchId a = builder.add(synthetic::rectangle(0, 0, 8, 6), {1.5, 3, 0});
+    builder.island = MapEditor(builder.map).add_island();
+    const PatchId b = builder.add(synthetic::rectangle(0, 0, 25, 6), {1.5, 3, 0});
+    doubt = {0, a, b, {{}, Matrix3d::Identity() * 1e-4}, 0};
+    const FloorSquare square = square_at(open_plane);
+    frontiers[0].island = builder.map.island_of(a);
+    frontiers[0].middle = {a, Vector2d::Zero()};
+    frontiers[0].gain_m2 = 1;
+    frontiers[0].seen = {{square.row, square.column, 1.0}};
+    way(0, 0) = 5;
+  }
+  [[nodiscard]] bool is_worth(double longest) const {
+    KnownFloor floor(builder.map);
+    return is_worth_meeting(builder.map, doubt, 1.0, {0, 1, longest}, {frontiers, way, is_free}, {}, floor);
+  }
+};
+
+TEST(MeetingWorth, WhatTheOtherSideKnowsIsAReasonToMeet) {
+  EXPECT_TRUE(RoomAndHall({12, 3}).is_worth(10));
+}
+
+TEST(MeetingWorth, WhatNeitherSideHasSeenIsNone) {
+  EXPECT_FALSE(RoomAndHall({12, 9}).is_worth(10));
+}
+
+TEST(MeetingWorth, AWayThatIsLongerThanWhatItSavesIsNotGone) {
+  EXPECT_FALSE(RoomAndHall({12, 3}).is_worth(200));
 }
 
 TEST(MeetingWorth, WhoHasMuchToSeeNearByDoesNotGoFarForAnUnlikelyAnswer) {
