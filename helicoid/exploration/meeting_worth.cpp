@@ -119,8 +119,9 @@ bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, con
   int busy = 0;
   for (const std::size_t r : {pair.watcher, pair.shown}) busy += has_work(team, r) ? 1 : 0;
   const double cost = busy * (pair.longest + options.standing_m);
-  return worth_of(team, others, assignment) + likelihood * assignment.metres_per_m2 * saved - cost >=
-         worth_of(team, team.is_free, assignment);
+  // A long way to a frontier is put off by a meeting and not saved.
+  const double missed = std::max(0.0, worth_of(team, team.is_free, assignment) - worth_of(team, others, assignment));
+  return likelihood * assignment.metres_per_m2 * saved >= cost + missed;
 }
 
 }  // namespace helicoid

@@ -114,6 +114,12 @@ TEST(MeetingWorth, AWayThatIsLongerThanWhatItSavesIsNotGone) {
   EXPECT_FALSE(RoomAndHall({12, 3}).is_worth(200));
 }
 
+TEST(MeetingWorth, ALongWayToTheOnlyFrontierIsNoReason) {
+  RoomAndHall far({12, 9});
+  far.way(0, 0) = 100;
+  EXPECT_FALSE(far.is_worth(10));
+}
+
 TEST(MeetingWorth, WhoHasMuchToSeeNearByDoesNotGoFarForAnUnlikelyAnswer) {
   EXPECT_FALSE(AtWork(12).is_worth(0.05, 30));
 }
