@@ -1,13 +1,16 @@
 // Do robots that arrange to meet settle whether two places are one?
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "apps/experiments/false_closures.hpp"
 #include "apps/experiments/list.hpp"
 #include "apps/explore_quality.hpp"
 #include "apps/explore_run.hpp"
 #include "apps/map_outputs.hpp"
 #include "apps/world_picture.hpp"
+#include "helicoid/manifold/stated_confidence.hpp"
 
 namespace helicoid {
 
@@ -19,8 +22,10 @@ constexpr double kSame = 1.0;  // metres: places that far from where they were s
 constexpr std::array<std::size_t, 4> kEitherWing{0, 1, 2, 3};
 constexpr std::array<std::size_t, 4> kOneWing{0, 1, 4, 5};
 
-/// Who begins where others have been must come when those have gone on: else they see each other at once.
-constexpr double kLater = 240;  // seconds
+/// The second pair comes when the first has something to tell: in the other wing once its own is mapped,
+constexpr double kWhenMapped = 60;  // seconds
+/// in the same wing once the first has gone on, or they see each other at once.
+constexpr double kWhenGone = 240;  // seconds
 
 /// What is done about places of two islands that look alike.
 enum class Policy : std::uint8_t { meet, wait, believe };
@@ -41,23 +46,36 @@ struct MetRun {
   std::size_t wrong_merges = 0;
 };
 
-/// How far robots of one island are at most from where the map has them relative to one another, metres.
-double farthest_off(const LiveSimulation& simulation, const Map& map) {
-  double farthest = 0;
-  std::vector<std::size_t> there;
-  for (std::size_t i = 0; i < map.robots().size(); ++i) {
-    if (!map.robots()[i].trajectory.empty()) there.push_back(i);
-  }
-  const auto pose = [&](std::size_t robot) { return map.robots()[robot].trajectory.back().pose; };
-  for (const std::size_t i : there) {
-    for (const std::size_t k : there) {
-      if (map.island_of(pose(i).patch) != map.island_of(pose(k).patch)) continue;
-      const Pose2 T_true = simulation.T_world_robot(i).inverse() * simulation.T_world_robot(k);
-      const Pose2 T_map = map.project(pose(i)).inverse() * map.project(pose(k));
-      farthest = std::max(farthest, (T_true.translation() - T_map.translation()).norm());
+/// True if the map has this robot elsewhere relative to the other, by more than a place's size and than it says itself.
+bool is_misplaced(const LiveSimulation& simulation, const Map& map, const StatedConfidence& stated, std::size_t i,
+                  std::size_t k) {
+  const auto last = [&](std::size_t robot) {
+    return StatedConfidence::TakenScan{make_id<RobotId>(robot), map.robots()[robot].trajectory.size() - 1};
+  };
+  const Pose2 T_true = simulation.T_world_robot(i).inverse() * simulation.T_world_robot(k);
+  const UncertainPose2 said = stated.between(last(i), last(k));
+  const Vector3d off(said.T_a_b.x - T_true.x, said.T_a_b.y - T_true.y, wrap_angle(said.T_a_b.yaw - T_true.yaw));
+  if (off.head<2>().norm() <= kSame) return false;
+  return off.dot(said.covariance.ldlt().solve(off)) > kFalseByChi2;
+}
+
+/// True if robots of one island are not where the map has them relative to one another.
+bool has_misplaced(const LiveSimulation& simulation, const Map& map) {
+  for (const Island& island : map.islands()) {
+    std::vector<std::size_t> there;
+    for (std::size_t i = 0; i < map.robots().size(); ++i) {
+      const Trajectory& trajectory = map.robots()[i].trajectory;
+      if (!trajectory.empty() && map.island_of(trajectory.back().pose.patch) == island.id) there.push_back(i);
+    }
+    const StatedConfidence stated(map, island);
+    if (!stated.is_determined()) continue;
+    for (const std::size_t i : there) {
+      for (const std::size_t k : there) {
+        if (i < k && is_misplaced(simulation, map, stated, i, k)) return true;
+      }
     }
   }
-  return farthest;
+  return false;
 }
 
 /// Follows a run: what was settled, when the pairs' maps became one, and which joins were wrong.
@@ -72,7 +90,7 @@ class Witness {
                           simulation.T_world_robot(settled.shown.index())});
     }
     const std::size_t merges = map.island_count() - map.islands().size();
-    if (merges > merges_ && farthest_off(simulation, map) > kSame) ++wrong_merges_;
+    if (merges > merges_ && has_misplaced(simulation, map)) ++wrong_merges_;
     merges_ = merges;
     const auto is_mapped = [](const RobotRecord& robot) { return !robot.trajectory.empty(); };
     const bool all_here = std::all_of(map.robots().begin(), map.robots().end(), is_mapped);
@@ -95,7 +113,8 @@ Result<MetRun> explore(const World& world, std::span<const std::size_t> starts, 
   job.world = world;
   job.simulation.seed = seed;
   for (const std::size_t start : starts) job.robots.push_back({world.starts[start]});
-  if (starts[2] == kOneWing[2]) job.robots[2].joins_at = job.robots[3].joins_at = kLater;
+  const bool is_one_wing = starts[2] == kOneWing[2];
+  job.robots[2].joins_at = job.robots[3].joins_at = is_one_wing ? kWhenGone : kWhenMapped;
   job.pilot.explorer.meet = policy == Policy::meet;
   job.pilot.greedy = policy == Policy::believe;
   Witness witness;
@@ -222,13 +241,15 @@ Experiment rendezvous_experiment() {
   e.question = "Do robots that arrange to meet settle whether two places are one?";
   e.method =
       "A building with two wings that are alike to the millimetre; two pairs of robots that know nothing of one "
-      "another begin one in either wing; or the second, four minutes later, elsewhere in the wing in which the first "
+      "another begin one in either wing, the second a minute later; or the second, four minutes later, elsewhere in "
+      "the wing in which the first "
       "began. Where places of the two maps look alike and it is worth the way, a robot of either is sent: if the "
       "places were one they would see each other. Met: they did, at the two places or one of them on the way there; "
       "distinct: both stood there and did not, though a sighting would have been as likely as given (least chance); "
       "joined meanwhile: other robots saw each other by chance before. Settled wrongly: accepted, though the places "
       "are more than a metre from where that has them, or recorded as distinct though they are not. A merge is wrong "
-      "if robots that it joins are more than a metre from where the map has them relative to one another. The same "
+      "if robots that it joins are more than a metre, and more than the map itself says (99 %), from where the map has "
+      "them relative to one another. The same "
       "beside without rendezvous (waiting: islands are joined when robots happen to see each other) and with greedy "
       "closure (what looks alike is believed at once). Joined: both pairs are on one map. Explored: nothing is left to "
       "look at, and everybody is home. Each answer is to occur in half of the runs at least of the case in which it "

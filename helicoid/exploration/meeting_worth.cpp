@@ -8,6 +8,9 @@ namespace helicoid {
 
 namespace {
 
+/// Meetings that it takes for granted beforehand: so many where the places were one, to one where they were not.
+constexpr double kOnes = 2;
+
 bool is_between_the_same(const Map& map, const Doubt& x, const Doubt& y) {
   const auto same = [&](PatchId p, PatchId q) { return map.island_of(p) == map.island_of(q); };
   return (same(x.a, y.a) && same(x.b, y.b)) || (same(x.a, y.b) && same(x.b, y.a));
@@ -104,8 +107,10 @@ double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> 
     ++all;
     if (desk.asks_the_same(map, doubt, other)) ++alike;
   }
-  const double usual = (record.met + 1.0) / (record.met + record.absent + 1.0);
-  return usual * std::min(alike / all, 1 / (1 + doubt.ambiguity));
+  // That one of the places is the right one, before any of them was ruled out.
+  const double p = (record.met + kOnes) / (record.met + kOnes + 1);
+  const double places = std::max(record.absent + all / alike, 1 + doubt.ambiguity);
+  return p / (places - p * record.absent);
 }
 
 bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,
@@ -121,7 +126,7 @@ bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, con
   const double cost = busy * (pair.longest + options.standing_m);
   // A long way to a frontier is put off by a meeting and not saved.
   const double missed = std::max(0.0, worth_of(team, team.is_free, assignment) - worth_of(team, others, assignment));
-  return likelihood * assignment.metres_per_m2 * saved >= cost + missed;
+  return likelihood * options.metres_per_m2 * saved >= cost + missed;
 }
 
 }  // namespace helicoid

@@ -12,8 +12,9 @@
 namespace helicoid {
 
 struct MeetingWorthOptions {
-  double doubt_reach = 10;  ///< frontiers so near to a doubt's places may show what is known already, metres
-  double standing_m = 6;    ///< that either robot could drive while it stands there and looks, metres
+  double doubt_reach = 10;     ///< frontiers so near to a doubt's places may show what is known already, metres
+  double metres_per_m2 = 0.8;  ///< what robots drive for a square metre in the end: 0.7 to 0.9 in rooms and corridors
+  double standing_m = 6;       ///< that either robot could drive while it stands there and looks, metres
 };
 
 /// What meetings have said so far.
@@ -22,10 +23,10 @@ struct MeetingRecord {
   int absent = 0;
 };
 
-/// The probability that a doubt's two places are one. Of what contradicts one another between two islands one is right
-/// at most: a doubt has the share of those that would join them alike, and half if a rival placement fits as well
-/// (which may be one of them). And meetings tell how look-alikes fare in this building: until they do,
-/// one of a doubt and its rivals is taken to be right.
+/// The probability that a doubt's two places are one (Bayes). Of the places where the other island may lie one is right
+/// at most, and with some probability none: the more of them meetings have ruled out, the likelier is each that is
+/// left, but the likelier, too, that none is. Open doubts that would join two islands alike are one place; a rival
+/// placement that fits as well is one more, unless it is among them or was ruled out.
 [[nodiscard]] double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> open,
                                    const RendezvousDesk& desk, const MeetingRecord& record);
 

@@ -41,6 +41,10 @@ TEST(MeetingWorth, WhereLookAlikesWereDistinctTheNextOneIsBelievedLess) {
   EXPECT_GT(one.likelihood({1, 3}), one.likelihood({0, 3}));
 }
 
+TEST(MeetingWorth, APlaceThatWasRuledOutMakesItsRivalLikelier) {
+  EXPECT_GT(LookAlikes(1).likelihood({0, 1}), LookAlikes(2).likelihood());
+}
+
 TEST(MeetingWorth, ARivalPlacementThatFitsAsWellHalvesIt) {
   LookAlikes one(1);
   const double without = one.likelihood();
