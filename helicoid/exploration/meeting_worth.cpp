@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace helicoid {
@@ -34,14 +35,20 @@ struct Side {
   }
 };
 
-/// The share of the floor that is open on one side which is known on the other, if this transform holds. What is
-/// neither known there nor open is wall there, or nobody has been near.
-double known_share(std::span<const Frontier* const> here, std::span<const Frontier* const> there,
-                   const KnownSquares& known_there, const Pose2& T_there_here) {
+/// What one side's open floor is to the other, if a transform holds.
+struct OpenAsSeenFromThere {
+  double known_share = 0;  ///< what is known there, of all that is
+  double open_m2 = 0;      ///< what is open there as well
+};
+
+/// What is neither known there nor open is wall there, or nobody has been near.
+OpenAsSeenFromThere compare_open(std::span<const Frontier* const> here, std::span<const Frontier* const> there,
+                                 const KnownSquares& known_there, const Pose2& T_there_here) {
   std::set<FloorSquare> open_there;
   for (const Frontier* frontier : there) {
     for (const SeenSquare& square : frontier->seen) open_there.insert({square.row, square.column});
   }
+  std::map<FloorSquare, double> open_on_both;
   double all = 0;
   double again = 0;
   for (const Frontier* frontier : here) {
@@ -49,17 +56,25 @@ double known_share(std::span<const Frontier* const> here, std::span<const Fronti
     double open = 0;
     for (const SeenSquare& square : frontier->seen) {
       const FloorSquare at = square_at(T_there_here * middle_of({square.row, square.column}));
-      if (known_there.has(at)) known += square.area;
-      if (!known_there.has(at) && open_there.contains(at)) open += square.area;
+      if (known_there.has(at)) {
+        known += square.area;
+      } else if (open_there.contains(at)) {
+        open += square.area;
+        double& m2 = open_on_both[{square.row, square.column}];
+        m2 = std::max(m2, square.area);
+      }
     }
     all += frontier->gain_m2;
     if (known > 0) again += frontier->gain_m2 * known / (known + open);
   }
-  return all > 0 ? again / all : 0;
+  OpenAsSeenFromThere result;
+  if (all > 0) result.known_share = again / all;
+  for (const auto& [square, m2] : open_on_both) result.open_m2 += m2;
+  return result;
 }
 
-/// The floor that would be seen again from one side though it is known from the other, if the doubt's places are one,
-/// m2: the share of what is known there and not here that is known of what one would look at next.
+/// The floor that would be seen again from one side, if the doubt's places are one, m2. Of what is known there and not
+/// here, the share that is known of what one would look at next; and of what is open on both sides each side's half.
 double again_m2(const Map& map, const Side& here, const Side& there, const Pose2& T_there_here,
                 std::span<const Frontier> frontiers, KnownFloor& floor) {
   const KnownSquares& known_here = floor.of(map.island_of(here.place));
@@ -71,7 +86,9 @@ double again_m2(const Map& map, const Side& here, const Side& there, const Pose2
     if (!there.is_near(map, p_there) || known_here.has(square_at(T_here_there * p_there))) continue;
     beyond += kSeenSquare * kSeenSquare;
   }
-  return beyond * known_share(here.near(map, frontiers), there.near(map, frontiers), known_there, T_there_here);
+  const OpenAsSeenFromThere open =
+      compare_open(here.near(map, frontiers), there.near(map, frontiers), known_there, T_there_here);
+  return beyond * open.known_share + 0.5 * open.open_m2;
 }
 
 double again_m2(const Map& map, const Doubt& doubt, std::span<const Frontier> frontiers, double reach,

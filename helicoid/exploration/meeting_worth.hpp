@@ -38,8 +38,8 @@ struct TeamAtWork {
 };
 
 /// By expected gain. If the places are one, what is known beyond one of them need not be looked at again from the
-/// other's side. What neither side has seen is no reason to meet: whoever gets there first sees something new. Where
-/// nothing is left to look at, every meeting is worth its time.
+/// other's side, and what is open on both only once. What neither side is at is no reason to meet: whoever gets there
+/// first sees something new. Where nothing is left to look at, every meeting is worth its time.
 [[nodiscard]] bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,
                                     const TeamAtWork& team, const AssignmentOptions& assignment, KnownFloor& floor,
                                     const MeetingWorthOptions& options = {});
