@@ -163,6 +163,11 @@ void LoopGapDesk::look_after(double now, std::span<const TeamMember> members, st
 
 void LoopGapDesk::send(double now, const Map& map, std::span<const TeamMember> members, std::span<const Travel> travel,
                        std::span<const double> range) {
+  if (gaps_.empty()) return;
+  std::vector<std::vector<double>> way_to(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (range[i] >= 0) way_to[i] = ways_from(map, members[i].pose.patch);
+  }
   while (true) {
     const LoopGap* best = nullptr;
     std::size_t who = 0;
@@ -173,6 +178,8 @@ void LoopGapDesk::send(double now, const Map& map, std::span<const TeamMember> m
       if (tries_of(map, gap) >= options_.most_tries) continue;
       for (std::size_t i = 0; i < members.size(); ++i) {
         if (range[i] < 0 || goal_of(members[i].robot)) continue;
+        // Who is on the far side already would only go about on floor that it knows.
+        if (way_to[i][gap.from.index()] >= way_to[i][gap.beyond.index()]) continue;
         const double way = travel[i](gap.goal);
         const double worth = options_.drive_per_metre * gap.known_to - way;
         // There, and at worst all of it back.

@@ -100,6 +100,16 @@ TEST(LoopGap, ARobotIsSentAcrossAndToldWhy) {
   EXPECT_THAT(ring.desk.left_in_words(), HasSubstr("known only to"));
 }
 
+TEST(LoopGap, WhoIsSentComesFromTheOneSideAndStandsOnTheOther) {
+  Ring ring(kDrift);
+  ring.put({6, 1.5}, 500);
+  ring.step(0);
+  ASSERT_TRUE(ring.goal().has_value());
+  const auto near_start = [&](const Vector2d& p) { return (p - Vector2d(6, 1.5)).norm(); };
+  EXPECT_LT(near_start(ring.builder.map.T_plane_patch(ring.goal()->point.patch).translation()), 6);
+  EXPECT_GT(near_start(project(ring.builder.map, ring.goal()->point)), 2);
+}
+
 TEST(LoopGap, NobodyIsSentWhileThereIsOtherWork) {
   Ring ring(kDrift);
   ring.put({6, 1.5}, 500);
