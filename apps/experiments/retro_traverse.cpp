@@ -68,7 +68,7 @@ class Run {
     explore(random_.uniform(course_.first_s, course_.last_s));
     while (result_.manifold.all.size() < course_.traverses) {
       explore(random_.uniform(kShortestStretch, kLongestStretch));
-      if (random_.chance(2.0 / 3)) search_for_sheets();
+      if (2 * result_.with_sheets <= result_.manifold.all.size()) search_for_sheets();
       stand_still();
       const std::size_t edge = mapping_.truth(0).size() - 1;
       for (std::size_t k = 0; k < kTraversesInARow; ++k) traverse_to(random_.below(mapping_.truth(0).size()));
@@ -214,8 +214,9 @@ Experiment retro_traverse_experiment() {
       "from the scans that it has taken so far, and goes back to where it broke off. The map grows and closes loops "
       "all the while. Arrived: the robot says so, truly stands within 0.30 m of where that scan was taken and has "
       "touched nothing, within three times the time that its limits let it take for the first route (its length at "
-      "top speed and its bends at top turn rate). Before two of three rows of traverses it explores on, four minutes "
-      "at most, until the map has more than one sheet. Planar: the same from the same state, on one occupancy grid "
+      "top speed and its bends at top turn rate). The moments are stratified: while no more than half of a course's "
+      "traverses so far had more than one sheet, it explores on before the next row, four minutes at most, until the "
+      "map has. Planar: the same from the same state, on one occupancy grid "
       "of 5 cm of all patches at the same poses: the way of least cost by the same law that keeps the same "
       "clearance (A*), pulled taut, with the same follower and avoidance, and planned again whenever the robot is "
       "blocked.";

@@ -75,7 +75,11 @@ const char* name_of(EndState state) {
 }
 
 Explorer::Explorer(const ExplorerOptions& options)
-    : options_(options), finder_(options.frontiers), looks_(options.looks), desk_(options.rendezvous) {}
+    : options_(options),
+      finder_(options.frontiers),
+      looks_(options.looks),
+      desk_(options.rendezvous),
+      gaps_(options.loop_gaps) {}
 
 TeamPlan Explorer::plan(double now, const Map& map, const Neighbours& neighbours, std::span<const Travel> travel,
                         std::span<const TeamMember> members, std::span<const Doubt> doubts,
@@ -95,6 +99,7 @@ TeamPlan Explorer::plan(double now, const Map& map, const Neighbours& neighbours
   spare_batteries(s, plan);
   keep_meetings(s, plan);
   arrange_meetings(s, plan);
+  cross_gaps(s, neighbours, plan);
   assign(s, plan);
   go_home(s, plan);
   conclude(s, plan);
@@ -102,7 +107,12 @@ TeamPlan Explorer::plan(double now, const Map& map, const Neighbours& neighbours
 }
 
 void Explorer::sort_out_frontiers(Situation& s, const Neighbours& neighbours, TeamPlan& plan) {
-  for (Frontier& frontier : finder_.find(s.map, neighbours, s.travel)) {
+  // Where only one can get to that is dead or out of contact, nobody looks.
+  std::vector<Travel> of_available;
+  for (std::size_t i = 0; i < s.members.size(); ++i) {
+    if (s.members[i].available) of_available.push_back(s.travel[i]);
+  }
+  for (Frontier& frontier : finder_.find(s.map, neighbours, of_available)) {
     if (!is_to_be_looked_at(frontier)) {
       plan.frontiers_left.push_back(left_out(frontier, why_closed(frontier)));
     } else if (orders_.is_forbidden(s.map, frontier.goal) || orders_.is_forbidden(s.map, frontier.middle)) {
@@ -194,6 +204,21 @@ void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
   doubt_turn_ += static_cast<std::size_t>(options_.doubts_a_plan);
 }
 
+void Explorer::cross_gaps(Situation& s, const Neighbours& neighbours, TeamPlan& plan) {
+  if (!options_.revisit) return;
+  std::vector<double> range;
+  for (std::size_t i = 0; i < s.members.size(); ++i) {
+    const double home = s.travel[i](s.members[i].home);
+    const double left = (s.members[i].battery - options_.battery_reserve) * options_.metres_per_charge / 1.2;
+    range.push_back(s.is_free[i] == 0 ? -1 : left - (std::isfinite(home) ? home : 0));
+  }
+  gaps_.step(s.now, s.map, neighbours, s.members, s.travel, range, !s.frontiers.empty() || s.waits);
+  for (std::size_t i = 0; i < s.members.size(); ++i) {
+    const std::optional<Goal> goal = s.is_free[i] != 0 ? gaps_.goal_of(s.members[i].robot) : std::nullopt;
+    if (goal) s.tell(plan, i, *goal);
+  }
+}
+
 void Explorer::assign(Situation& s, TeamPlan& plan) {
   Choice going(s.members.size());
   for (std::size_t r = 0; r < s.members.size(); ++r) {
@@ -240,7 +265,9 @@ void Explorer::go_home(Situation& s, TeamPlan& plan) {
 }
 
 void Explorer::conclude(Situation& s, TeamPlan& plan) {
-  const auto explores = [](const Goal& g) { return g.kind == GoalKind::frontier || g.kind == GoalKind::rendezvous; };
+  const auto explores = [](const Goal& g) {
+    return g.kind == GoalKind::frontier || g.kind == GoalKind::rendezvous || g.kind == GoalKind::revisit;
+  };
   const bool works = s.waits || std::any_of(plan.goals.begin(), plan.goals.end(), explores);
   if (works) {
     nearest_home_at_ = -1;
@@ -265,6 +292,7 @@ void Explorer::conclude(Situation& s, TeamPlan& plan) {
   if (!plan.frontiers_left.empty()) {
     plan.reason += fmt::format("; {} not looked at: {}", plan.frontiers_left.size(), summary_of(plan.frontiers_left));
   }
+  plan.reason += gaps_.left_in_words();
   if (plan.finished && !all_home) plan.reason += "; not everybody got home";
 }
 

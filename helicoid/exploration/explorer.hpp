@@ -7,6 +7,7 @@
 
 #include "helicoid/exploration/frontiers.hpp"
 #include "helicoid/exploration/look_memory.hpp"
+#include "helicoid/exploration/loop_gap.hpp"
 #include "helicoid/exploration/meeting_worth.hpp"
 #include "helicoid/exploration/orders.hpp"
 #include "helicoid/exploration/rendezvous.hpp"
@@ -21,8 +22,10 @@ struct ExplorerOptions {
   LookMemoryOptions looks;
   RendezvousOptions rendezvous;
   MeetingWorthOptions meeting_worth;
+  LoopGapOptions loop_gaps;
   bool coordinated = true;          ///< false: each robot goes to its nearest frontier, whatever the others do
   bool meet = true;                 ///< doubts are settled by rendezvous
+  bool revisit = true;              ///< loops that only a long way round closes are closed before the team goes home
   int doubts_a_plan = 4;            ///< that a meeting is thought of for
   double metres_per_charge = 2000;  ///< a full battery drives so far
   double battery_reserve = 0.10;    ///< of a charge, left when a robot is home
@@ -76,6 +79,7 @@ class Explorer {
   void keep_meetings(Situation& s, TeamPlan& plan) const;
   void arrange_meetings(Situation& s, TeamPlan& plan);
   [[nodiscard]] bool is_known(const Map& map, const Doubt& doubt) const;
+  void cross_gaps(Situation& s, const Neighbours& neighbours, TeamPlan& plan);
   void assign(Situation& s, TeamPlan& plan);
   void go_home(Situation& s, TeamPlan& plan);
   void conclude(Situation& s, TeamPlan& plan);
@@ -86,6 +90,7 @@ class Explorer {
   LookMemory looks_;
   RendezvousDesk desk_;
   MeetingRecord meetings_;
+  LoopGapDesk gaps_;
   std::size_t doubt_turn_ = 0;     ///< where the next plan begins to think of doubts
   std::vector<RobotId> recalled_;  ///< their batteries were low
   double nearest_home_ = 0;        ///< the sum of the ways home, at its least since returning

@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <optional>
 #include <set>
 
+#include "helicoid/exploration/goal_search.hpp"
 #include "helicoid/exploration/look.hpp"
 
 namespace helicoid {
 
 namespace {
-
-/// A goal that cannot be reached is not tried again this near.
-constexpr double kNextTry = 0.4;
-constexpr std::size_t kMostTries = 12;
-
-bool is_reachable(const ManifoldPoint& point, std::span<const Travel> travel) {
-  return std::any_of(travel.begin(), travel.end(), [&](const Travel& t) { return std::isfinite(t(point)); });
-}
 
 /// The patches of a cluster and what is around them; ascending.
 std::vector<PatchId> patches_about(const OpenEdges& edges, const EdgeCluster& cluster) {
@@ -69,17 +61,6 @@ std::uint64_t fingerprint_of_patches(const Map& map, std::span<const PatchId> pa
   return print.value();
 }
 
-/// A place on the ground in the patch that knows it from nearest by.
-std::optional<ManifoldPoint> on_patch(const Map& map, std::span<const PatchId> patches, const Vector2d& p_plane) {
-  std::optional<ManifoldPoint> best;
-  for (const PatchId id : patches) {
-    const Vector2d p_patch = map.T_plane_patch(id).inverse() * p_plane;
-    if (best && best->p_patch.norm() <= p_patch.norm()) continue;
-    if (p_patch.norm() <= map.patch(id).free_reach && is_ground(map.patch(id), p_patch)) best = {id, p_patch};
-  }
-  return best;
-}
-
 std::vector<GroundCell> edge_cells(const EdgeCluster& cluster) {
   // Half a cell inside the boundary: a cell's centre must lie inside to be free.
   std::set<GroundCell> cells;
@@ -87,81 +68,6 @@ std::vector<GroundCell> edge_cells(const EdgeCluster& cluster) {
     for (const double inside : {0.05, 0.12}) cells.insert(ground_cell(p.p_plane - inside * p.outward_plane));
   }
   return {cells.begin(), cells.end()};
-}
-
-/// The nearest place to the edge, by the way over known floor, that a robot can stand on and go to.
-class GoalSearch {
- public:
-  GoalSearch(const Map& map, const GroundWindow& window, std::span<const PatchId> patches,
-             const FrontierOptions& options)
-      : map_(map), window_(window), patches_(patches), options_(options), way_(window.cells(), -1) {}
-
-  std::optional<ManifoldPoint> find(std::span<const GroundCell> edge, std::span<const Travel> travel) {
-    for (const GroundCell& cell : edge) push(cell, 0, true);
-    const double room = (options_.robot_radius + options_.margin) / kGroundCell;
-    while (!open_.empty() && tried_.size() < kMostTries) {
-      const GroundCell cell = open_.front();
-      open_.pop_front();
-      const int way = way_[window_.index(cell)];
-      if (way * kGroundCell > options_.goal_reach) break;
-      if (window_.has_room(cell, room) && is_new_try(cell)) {
-        std::optional<ManifoldPoint> point = on_patch(map_, patches_, centre_of(cell));
-        if (point && is_reachable(*point, travel)) return point;
-        tried_.push_back(cell);
-      }
-      push({cell.row + 1, cell.column}, way + 1, false);
-      push({cell.row - 1, cell.column}, way + 1, false);
-      push({cell.row, cell.column + 1}, way + 1, false);
-      push({cell.row, cell.column - 1}, way + 1, false);
-    }
-    return std::nullopt;
-  }
-
- private:
-  void push(const GroundCell& cell, int way, bool is_edge) {
-    if (!window_.holds(cell) || !window_.is_free(cell) || way_[window_.index(cell)] >= 0) return;
-    // What is too near to an obstacle for the robot's middle is no way to the edge.
-    if (!is_edge && window_.is_near_obstacle(cell)) return;
-    way_[window_.index(cell)] = way;
-    open_.push_back(cell);
-  }
-  [[nodiscard]] bool is_new_try(const GroundCell& cell) const {
-    return std::none_of(tried_.begin(), tried_.end(), [&](const GroundCell& t) {
-      return std::hypot(t.row - cell.row, t.column - cell.column) * kGroundCell < kNextTry;
-    });
-  }
-
-  const Map& map_;
-  const GroundWindow& window_;
-  std::span<const PatchId> patches_;
-  const FrontierOptions& options_;
-  std::vector<int> way_;
-  std::deque<GroundCell> open_;
-  std::vector<GroundCell> tried_;
-};
-
-/// The nearest place to a point (plane), as the crow flies, that a robot can stand on and go to.
-std::optional<ManifoldPoint> nearest_stand(const Map& map, const GroundWindow& window, std::span<const PatchId> patches,
-                                           const Vector2d& p_plane, std::span<const Travel> travel,
-                                           const FrontierOptions& options) {
-  const GroundCell middle = ground_cell(p_plane);
-  const double room = (options.robot_radius + options.margin) / kGroundCell;
-  const int step = static_cast<int>(kNextTry / kGroundCell);
-  const int reach = static_cast<int>(options.near / kGroundCell);
-  std::optional<ManifoldPoint> best;
-  double least = options.near;
-  for (int row = -reach; row <= reach; row += step) {
-    for (int column = -reach; column <= reach; column += step) {
-      const double away = kGroundCell * std::hypot(row, column);
-      const GroundCell cell{middle.row + row, middle.column + column};
-      if (away >= least || !window.holds(cell) || !window.is_free(cell) || !window.has_room(cell, room)) continue;
-      const std::optional<ManifoldPoint> point = on_patch(map, patches, centre_of(cell));
-      if (!point || !is_reachable(*point, travel)) continue;
-      best = point;
-      least = away;
-    }
-  }
-  return best;
 }
 
 /// The edge as seen from the patch that holds most of it.
@@ -186,6 +92,69 @@ double heading_to(const EdgeCluster& cluster, const Vector2d& goal_plane) {
   return std::atan2(way.y(), way.x());
 }
 
+/// What lies about an edge, and what can be seen of it from there.
+class EdgeSurroundings {
+ public:
+  EdgeSurroundings(const Map& map, const EdgeCluster& cluster, std::span<const PatchId> patches, GroundWindow floor,
+                   const FrontierOptions& options)
+      : map_(map),
+        cluster_(cluster),
+        patches_(patches),
+        options_(options),
+        cells_(edge_cells(cluster)),
+        floor_(std::move(floor)),
+        wide_(floor_),
+        sight_(floor_) {
+    wide_.mark_near_obstacles(static_cast<int>(options.robot_radius / kGroundCell));
+    sight_.mark_near_obstacles(1);
+  }
+
+  [[nodiscard]] std::optional<ManifoldPoint> find_goal(std::span<const Travel> travel,
+                                                       const GoalSearch::Suits& suits) const {
+    std::optional<ManifoldPoint> goal = GoalSearch(map_, wide_, patches_, options_).find(cells_, travel, suits);
+    // Who cannot get to an edge past what stands there, or has seen only a sliver along it, can look from before it.
+    if (!goal) goal = GoalSearch(map_, floor_, patches_, options_).find(cells_, travel, suits);
+    return goal;
+  }
+  [[nodiscard]] std::optional<ManifoldPoint> stand_near(std::span<const Travel> travel) const {
+    return nearest_stand(map_, sight_, patches_, cluster_.middle_plane, travel, options_);
+  }
+
+  /// To look into what is not known, in the point's patch.
+  [[nodiscard]] double heading(const ManifoldPoint& from) const {
+    return wrap_angle(heading_to(cluster_, project(map_, from)) - map_.T_plane_patch(from.patch).yaw);
+  }
+  [[nodiscard]] Look look(const ManifoldPoint& from) const {
+    const Vector2d from_plane = project(map_, from);
+    return look_from(sight_, from_plane, heading_to(cluster_, from_plane), options_.field_of_view, options_.look_range);
+  }
+  void look_from_goal(const ManifoldPoint& goal, Frontier& frontier) const {
+    Look seen = look(goal);
+    frontier.goal = goal;
+    frontier.heading_patch = heading(goal);
+    frontier.gain_m2 = seen.gain_m2;
+    frontier.seen = std::move(seen.seen);
+  }
+
+  /// No robot gets to where it sees what is there.
+  void say_why_not(Frontier& frontier) const {
+    std::vector<GroundCell> stood;
+    stood.reserve(patches_.size());
+    for (const PatchId id : patches_) stood.push_back(ground_cell(map_.T_plane_patch(id).translation()));
+    frontier.opening = widest_opening(sight_, cells_, stood);
+    frontier.is_narrow = frontier.opening < 2 * options_.robot_radius;
+    frontier.status = frontier.is_narrow ? FrontierStatus::too_narrow : FrontierStatus::unreachable;
+  }
+
+ private:
+  const Map& map_;
+  const EdgeCluster& cluster_;
+  std::span<const PatchId> patches_;
+  const FrontierOptions& options_;
+  std::vector<GroundCell> cells_;
+  GroundWindow floor_, wide_, sight_;
+};
+
 }  // namespace
 
 const char* name_of(FrontierStatus status) {
@@ -209,35 +178,29 @@ GroundWindow FrontierFinder::window_about(const Map& map, const EdgeCluster& clu
 Frontier FrontierFinder::judge(const Map& map, const EdgeCluster& cluster, std::span<const PatchId> patches,
                                std::span<const Travel> travel) {
   Frontier frontier = describe(map, cluster);
-  const std::vector<GroundCell> edge = edge_cells(cluster);
-  GroundWindow window = window_about(map, cluster, patches);
-  GroundWindow wide = window;
-  wide.mark_near_obstacles(static_cast<int>(options_.robot_radius / kGroundCell));
-  std::optional<ManifoldPoint> goal = GoalSearch(map, wide, patches, options_).find(edge, travel);
-  // Who cannot get to an edge past what stands there, or has seen only a sliver along it, can look from before it.
-  if (!goal) goal = GoalSearch(map, window, patches, options_).find(edge, travel);
-  if (goal) frontier.goal = *goal;
-  const Vector2d from_plane = project(map, frontier.goal);
-  const double heading = heading_to(cluster, from_plane);
-  window.mark_near_obstacles(1);
-  Look look = look_from(window, from_plane, heading, options_.field_of_view, options_.look_range);
-  frontier.heading_patch = wrap_angle(heading - map.T_plane_patch(frontier.goal.patch).yaw);
-  frontier.gain_m2 = look.gain_m2;
-  frontier.seen = std::move(look.seen);
-  if (goal || frontier.gain_m2 < options_.least_gain) return frontier;
-  std::vector<GroundCell> stood;
-  stood.reserve(patches.size());
-  for (const PatchId id : patches) stood.push_back(ground_cell(map.T_plane_patch(id).translation()));
-  frontier.opening = widest_opening(window, edge, stood);
-  frontier.is_narrow = frontier.opening < 2 * options_.robot_radius;
-  frontier.status = frontier.is_narrow ? FrontierStatus::too_narrow : FrontierStatus::unreachable;
-  if (frontier.gain_m2 < options_.least_gain_near) return frontier;
-  if (const auto near = nearest_stand(map, window, patches, cluster.middle_plane, travel, options_)) {
-    frontier.goal = *near;
-    frontier.heading_patch = wrap_angle(heading_to(cluster, project(map, *near)) - map.T_plane_patch(near->patch).yaw);
-    frontier.status = FrontierStatus::from_near;
+  const EdgeSurroundings about(map, cluster, patches, window_about(map, cluster, patches), options_);
+  if (const auto nearest = about.find_goal(travel, [](const ManifoldPoint&) { return true; })) {
+    about.look_from_goal(*nearest, frontier);
+    if (frontier.gain_m2 >= options_.least_gain) return frontier;
   }
-  return frontier;
+  // The nearest place may be round a corner from what there is to see.
+  Frontier from_edge = describe(map, cluster);
+  about.look_from_goal(from_edge.middle, from_edge);
+  if (from_edge.gain_m2 < options_.least_gain) return from_edge;
+  const auto sees = [&](const ManifoldPoint& point) { return about.look(point).gain_m2 >= options_.least_gain; };
+  if (const auto goal = about.find_goal(travel, sees)) {
+    about.look_from_goal(*goal, from_edge);
+    return from_edge;
+  }
+  about.say_why_not(from_edge);
+  // What is seen to be narrow may be a door that was seen along its wall: one look from near tells.
+  if (from_edge.gain_m2 < options_.least_gain_near) return from_edge;
+  if (const auto near = about.stand_near(travel)) {
+    from_edge.goal = *near;
+    from_edge.heading_patch = about.heading(*near);
+    from_edge.status = FrontierStatus::from_near;
+  }
+  return from_edge;
 }
 
 std::vector<Frontier> FrontierFinder::find(const Map& map, const Neighbours& neighbours,

@@ -23,6 +23,7 @@ const char* name_of(GoalKind kind) {
     case GoalKind::stay: return "stay";
     case GoalKind::frontier: return "frontier";
     case GoalKind::rendezvous: return "rendezvous";
+    case GoalKind::revisit: return "revisit";
     case GoalKind::home: return "home";
     case GoalKind::operator_: break;
   }

@@ -19,7 +19,14 @@ struct TeamMember {
   ManifoldPoint home;     ///< where it returns to
 };
 
-enum class GoalKind : std::uint8_t { stay, frontier, rendezvous, home, operator_ };
+enum class GoalKind : std::uint8_t {
+  stay,
+  frontier,
+  rendezvous,
+  revisit,  ///< across where two parts of the map meet, to close a loop
+  home,
+  operator_,
+};
 [[nodiscard]] const char* name_of(GoalKind kind);
 
 /// Where a robot should go. Published, not seized: what the robot makes of it is its own affair.
