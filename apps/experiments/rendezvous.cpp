@@ -27,6 +27,9 @@ constexpr double kWhenMapped = 60;  // seconds
 /// in the same wing once the first has gone on, or they see each other at once.
 constexpr double kWhenGone = 240;  // seconds
 
+/// A team that believes what is false may go about in it for good.
+constexpr double kLongest = 1200;  // seconds
+
 /// What is done about places of two islands that look alike.
 enum class Policy : std::uint8_t { meet, wait, believe };
 
@@ -117,6 +120,7 @@ Result<MetRun> explore(const World& world, std::span<const std::size_t> starts, 
   job.robots[2].joins_at = job.robots[3].joins_at = is_one_wing ? kWhenGone : kWhenMapped;
   job.pilot.explorer.meet = policy == Policy::meet;
   job.pilot.greedy = policy == Policy::believe;
+  job.longest = kLongest;
   Witness witness;
   job.observer = [&](double now, const LiveSimulation& simulation, const TeamPilot& pilot) {
     return witness.look(now, simulation, pilot);
@@ -252,7 +256,8 @@ Experiment rendezvous_experiment() {
       "them relative to one another. The same "
       "beside without rendezvous (waiting: islands are joined when robots happen to see each other) and with greedy "
       "closure (what looks alike is believed at once). Joined: both pairs are on one map. Explored: nothing is left to "
-      "look at, and everybody is home. Each answer is to occur in half of the runs at least of the case in which it "
+      "look at, and everybody is home, or 20 minutes are over. Each answer is to occur in half of the runs at least of "
+      "the case in which it "
       "is asked for: a pair that begins where another has been must be met, though it is also told that it is not in "
       "the other wing. The pictures show the first run of each case: the building with the two of each meeting where "
       "they were when it was settled, and the map with meetings and with greedy closure.";
