@@ -14,8 +14,8 @@ Vector3d difference(const Pose2& T, const Pose2& from) {
   return {T.x - from.x, T.y - from.y, wrap_angle(T.yaw - from.yaw)};
 }
 
-/// Correspondences speak of where they were found and hold within their gate: along a bare corridor a few of them, which
-/// say next to nothing, would else carry the patch off by metres at once. Metres and radians, per round.
+/// Correspondences speak of where they were found and hold within their gate: along a bare corridor a few of them,
+/// which say next to nothing, would else carry the patch off by metres at once. Metres and radians, per round.
 const Matrix3d kHolds = Vector3d::Constant(1 / (0.15 * 0.15)).asDiagonal();
 
 /// Eq. 13: the pose of the new patch that fits all its relations to patches that stay where they are; the matches were
