@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "apps/map_run.hpp"
 #include "apps/planar_route.hpp"
+#include "helicoid/navigation/where_am_i.hpp"
 
 namespace helicoid {
 
@@ -82,6 +84,7 @@ class Attempt {
                                            mapping_.simulation().laser(), options_.period);
     traverse_.way.push_back(mapping_.simulation().T_world_robot(0));
     if (mapping_.simulation().collisions() > contacts_) return TraverseEnd::collision;
+    if (step.status == FollowStatus::arrived && !is_on_goals_sheet()) return look_for_goal();
     if (step.status == FollowStatus::arrived) {
       return off() <= options_.arrived_m ? TraverseEnd::arrived : TraverseEnd::wrong_place;
     }
@@ -92,6 +95,35 @@ class Attempt {
     if (blocked && now() - planned_ >= options_.replan_every) plan();
     mapping_.command(0, step.command);
     mapping_.tick();
+    return std::nullopt;
+  }
+
+  /// The map knows how the robot stands to the goal, well enough.
+  [[nodiscard]] bool is_on_goals_sheet() const {
+    const PatchId here = mapping_.pose(0).patch;
+    if (here == goal_.patch || looked_) return true;
+    const Neighbours neighbours = find_neighbours(mapping_.map());
+    const std::vector<PatchId>& of_goal = neighbours[goal_.patch.index()];
+    return std::binary_search(of_goal.begin(), of_goal.end(), here);
+  }
+
+  /// Where its sheet is not the goal's, the robot stands in the right place as the plane has it, which may be wrong: it
+  /// turns about until its scan tells where the goal is from here, a full turn at most.
+  std::optional<TraverseEnd> look_for_goal() {
+    const Map& map = mapping_.map();
+    const ManifoldPose here = mapping_.pose(0);
+    const Neighbours neighbours = find_neighbours(map);
+    const auto found =
+        find_on_sheet(map, neighbours, goal_.patch, here, mapping_.scan(0), mapping_.simulation().laser());
+    turned_ += options_.follower.top_turn_rate * options_.period;
+    looked_ = found || turned_ > 2 * std::numbers::pi;
+    if (found) {
+      goal_ = {here.patch, here.T_patch_robot * (found->T_patch_robot.inverse() * goal_.p_patch)};
+      plan();
+    } else {
+      mapping_.command(0, {0, options_.follower.top_turn_rate});
+      mapping_.tick();
+    }
     return std::nullopt;
   }
 
@@ -116,6 +148,8 @@ class Attempt {
   bool was_blocked_ = false;
   std::optional<Vector2d> p_world_stuck_;
   double stuck_since_ = 0;
+  double turned_ = 0;    ///< to look for the goal, radians
+  bool looked_ = false;  ///< for it, in vain or not
   Traverse traverse_;
 };
 

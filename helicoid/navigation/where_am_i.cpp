@@ -160,4 +160,23 @@ std::vector<PlaceHypothesis> where_am_i(const Map& map, const Neighbours& neighb
   return places;
 }
 
+std::optional<ManifoldPose> find_on_sheet(const Map& map, const Neighbours& neighbours, PatchId patch,
+                                          const ManifoldPose& robot, const Scan& scan, const LaserModel& laser,
+                                          const SheetSearchOptions& options) {
+  ScanPointExtractor extractor(laser);
+  const ScanPoints& points = extractor.extract(scan);
+  if (points.size() < static_cast<std::size_t>(AlignOptions{}.min_points)) return std::nullopt;
+  const WhereAmIOptions about;
+  PlaceWindow window;
+  window.T_reference_scan = map.express(robot, patch).T_patch_robot;
+  window.half_width = options.reach;
+  window.half_turn = options.turn;
+  const PlaceSearch found = search_place(surroundings(map, neighbours, patch, about.views).reference, points, window);
+  if (found.best.score < std::max(about.least_score, options.clearer * found.second.score)) return std::nullopt;
+  const PlaceHypothesis place = refine(map, neighbours, {patch, found.best}, points, laser, about);
+  const bool fits = place.pose.patch.valid() && place.inlier_share >= options.least_inlier_share &&
+                    place.against_share <= options.most_against;
+  return fits ? std::optional(place.pose) : std::nullopt;
+}
+
 }  // namespace helicoid

@@ -99,5 +99,32 @@ TEST(WhereAmI, IsNotSureOfAPlaceThatTheMapDoesNotHave) {
   EXPECT_TRUE(where_am_i(builder.map, rooms_of(8, 4), blind, builder.laser).empty());
 }
 
+/// The room's four views, and a patch of a robot that came back to it on another sheet: the plane has that half a metre
+/// off.
+TEST(FindOnSheet, TellsWhereARobotStandsWhateverThePlaneSays) {
+  Builder builder;
+  const std::vector<Wall> walls = room(0, 5);
+  for (const double yaw : {0.0, 1.57, 3.1, -1.57}) builder.add(walls, {4.2, 3.2, yaw});
+  const Pose2 taken{3.4, 3.0, 0.3};
+  const PatchId other = builder.add(walls, taken, {3.8, 2.7, 0.36});
+  Neighbours neighbours = rooms_of(4, 4);
+  neighbours.emplace_back();
+  const auto found = find_on_sheet(builder.map, neighbours, PatchId{0}, {other, {}},
+                                   synthetic::take_scan(walls, taken, builder.laser), builder.laser);
+  ASSERT_TRUE(found.has_value());
+  const Pose2 off = found->T_patch_robot.inverse() * builder.map.T_plane_patch(PatchId{0}).inverse() * taken;
+  EXPECT_LT(off.distance(), 0.03);
+  EXPECT_LT(std::abs(off.yaw), 0.01);
+}
+
+TEST(FindOnSheet, SaysNothingWhereTheScanFitsAnywhereAlongTheWalls) {
+  Builder builder;
+  const std::vector<Wall> walls{{{-60, 0}, {60, 0}}, {{60, 3}, {-60, 3}}};
+  builder.add(walls, {0, 1.5, 0});
+  const PatchId other = builder.add(walls, {0.5, 1.5, 0}, {0, 1.5, 0});
+  EXPECT_FALSE(find_on_sheet(builder.map, Neighbours(2), PatchId{0}, {other, {}},
+                             synthetic::take_scan(walls, {0.5, 1.5, 0}, builder.laser), builder.laser));
+}
+
 }  // namespace
 }  // namespace helicoid
