@@ -84,8 +84,8 @@ class Attempt {
                                            mapping_.simulation().laser(), options_.period);
     traverse_.way.push_back(mapping_.simulation().T_world_robot(0));
     if (mapping_.simulation().collisions() > contacts_) return TraverseEnd::collision;
-    if (step.status == FollowStatus::arrived && !is_on_goals_sheet()) return look_for_goal();
     if (step.status == FollowStatus::arrived) {
+      if (looks_for_goal()) return std::nullopt;
       return off() <= options_.arrived_m ? TraverseEnd::arrived : TraverseEnd::wrong_place;
     }
     if (now() > traverse_.allowed_s || is_stuck()) return TraverseEnd::late;
@@ -98,21 +98,15 @@ class Attempt {
     return std::nullopt;
   }
 
-  /// The map knows how the robot stands to the goal, well enough.
-  [[nodiscard]] bool is_on_goals_sheet() const {
-    const PatchId here = mapping_.pose(0).patch;
-    if (here == goal_.patch || looked_) return true;
-    const Neighbours neighbours = find_neighbours(mapping_.map());
-    const std::vector<PatchId>& of_goal = neighbours[goal_.patch.index()];
-    return std::binary_search(of_goal.begin(), of_goal.end(), here);
-  }
-
-  /// Where its sheet is not the goal's, the robot stands in the right place as the plane has it, which may be wrong: it
-  /// turns about until its scan tells where the goal is from here, a full turn at most.
-  std::optional<TraverseEnd> look_for_goal() {
+  /// Where the robot's sheet is not the goal's, it stands in the right place as the plane has it, which may be wrong:
+  /// it turns about until its scan tells where the goal is from here, a full turn at most. False: it need not, or has.
+  bool looks_for_goal() {
     const Map& map = mapping_.map();
     const ManifoldPose here = mapping_.pose(0);
+    if (looked_ || here.patch == goal_.patch) return false;
     const Neighbours neighbours = find_neighbours(map);
+    const std::vector<PatchId>& of_goal = neighbours[goal_.patch.index()];
+    if (std::binary_search(of_goal.begin(), of_goal.end(), here.patch)) return false;
     const auto found =
         find_on_sheet(map, neighbours, goal_.patch, here, mapping_.scan(0), mapping_.simulation().laser());
     turned_ += options_.follower.top_turn_rate * options_.period;
@@ -124,7 +118,7 @@ class Attempt {
       mapping_.command(0, {0, options_.follower.top_turn_rate});
       mapping_.tick();
     }
-    return std::nullopt;
+    return true;
   }
 
   bool is_stuck() {

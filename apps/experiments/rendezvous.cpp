@@ -1,5 +1,4 @@
 // Do robots that arrange to meet settle whether two places are one?
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,9 +56,8 @@ bool is_misplaced(const LiveSimulation& simulation, const Map& map, const Stated
   };
   const Pose2 T_true = simulation.T_world_robot(i).inverse() * simulation.T_world_robot(k);
   const UncertainPose2 said = stated.between(last(i), last(k));
-  const Vector3d off(said.T_a_b.x - T_true.x, said.T_a_b.y - T_true.y, wrap_angle(said.T_a_b.yaw - T_true.yaw));
-  if (off.head<2>().norm() <= kSame) return false;
-  return off.dot(said.covariance.ldlt().solve(off)) > kFalseByChi2;
+  const bool is_far = (said.T_a_b.translation() - T_true.translation()).norm() > kSame;
+  return is_far && is_beyond_said(said, T_true);
 }
 
 /// True if robots of one island are not where the map has them relative to one another.

@@ -94,18 +94,18 @@ std::vector<Fit> search_everywhere(const Map& map, const Neighbours& neighbours,
 }
 
 /// Aligned to what is about the place, and asked what speaks against it.
-PlaceHypothesis refine(const Map& map, const Neighbours& neighbours, const Fit& fit, const ScanPoints& points,
-                       const LaserModel& laser, const WhereAmIOptions& options) {
-  const Surroundings around = surroundings(map, neighbours, fit.anchor, options.views);
-  const Alignment alignment = align_scan(around.reference, points,
-                                         {fit.placement.T_reference_scan, Matrix3d::Identity()}, align_options(laser));
+PlaceHypothesis refine(const Map& map, const Surroundings& around, const Placement& placement, const ScanPoints& points,
+                       const LaserModel& laser) {
+  const Alignment alignment =
+      align_scan(around.reference, points, {placement.T_reference_scan, Matrix3d::Identity()}, align_options(laser));
   PlaceHypothesis place;
   if (!alignment.usable()) return place;
-  place.pose = {fit.anchor, alignment.T_reference_scan};
+  place.pose = {around.anchor, alignment.T_reference_scan};
   place.inlier_share = alignment.inlier_share;
   int against = 0;
   for (const PatchId id : around.views) {
-    const Pose2 T_id_scan = map.T_plane_patch(id).inverse() * map.T_plane_patch(fit.anchor) * place.pose.T_patch_robot;
+    const Pose2 T_id_scan =
+        map.T_plane_patch(id).inverse() * map.T_plane_patch(around.anchor) * place.pose.T_patch_robot;
     against = std::max(against, count_contradictions(map.patch(id), points, T_id_scan, kDeep));
   }
   place.against_share = static_cast<double>(against) / static_cast<double>(std::max<std::size_t>(1, points.size()));
@@ -143,7 +143,8 @@ std::vector<PlaceHypothesis> where_am_i(const Map& map, const Neighbours& neighb
   if (points.size() < static_cast<std::size_t>(AlignOptions{}.min_points)) return places;
   for (const Fit& fit : search_everywhere(map, neighbours, points, options)) {
     if (places.size() >= options.refined) break;
-    const PlaceHypothesis place = refine(map, neighbours, fit, points, laser, options);
+    const Surroundings around = surroundings(map, neighbours, fit.anchor, options.views);
+    const PlaceHypothesis place = refine(map, around, fit.placement, points, laser);
     if (!place.pose.patch.valid()) continue;
     const auto same = std::find_if(places.begin(), places.end(), [&](const PlaceHypothesis& other) {
       return is_same_place(map, place, other, neighbours, options);
@@ -171,9 +172,10 @@ std::optional<ManifoldPose> find_on_sheet(const Map& map, const Neighbours& neig
   window.T_reference_scan = map.express(robot, patch).T_patch_robot;
   window.half_width = options.reach;
   window.half_turn = options.turn;
-  const PlaceSearch found = search_place(surroundings(map, neighbours, patch, about.views).reference, points, window);
+  const Surroundings around = surroundings(map, neighbours, patch, about.views);
+  const PlaceSearch found = search_place(around.reference, points, window);
   if (found.best.score < std::max(about.least_score, options.clearer * found.second.score)) return std::nullopt;
-  const PlaceHypothesis place = refine(map, neighbours, {patch, found.best}, points, laser, about);
+  const PlaceHypothesis place = refine(map, around, found.best, points, laser);
   const bool fits = place.pose.patch.valid() && place.inlier_share >= options.least_inlier_share &&
                     place.against_share <= options.most_against;
   return fits ? std::optional(place.pose) : std::nullopt;
