@@ -67,8 +67,10 @@ FollowStep RouteFollower::drive(const Map& map, const ManifoldPose& robot) {
   step.status = FollowStatus::driving;
   step.left = ahead.left;
   std::vector<Vector2d> way = ahead.way;
-  if (const std::optional<Vector2d> barred = first_barred(way)) {
-    step.obstruction = ManifoldPoint{robot.patch, robot.T_patch_robot * *barred};
+  const std::optional<Vector2d> barred = first_barred(way);
+  if (barred) step.obstruction = ManifoldPoint{robot.patch, robot.T_patch_robot * *barred};
+  // Or right beside the robot: where the map has a gap a little aside of where it is.
+  if (barred || !farthest_free(way, radius(), kShortest)) {
     DetourOptions detour;
     detour.radius = radius() + 0.01;
     std::vector<Vector2d> round = find_detour(obstacles_, way, detour);
