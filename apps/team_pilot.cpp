@@ -19,12 +19,19 @@ struct TeamPilot::Member {
   Goal goal;
   bool has_way = false;
   bool is_blocked = false;
+  bool has_arrived = false;
   double way_found_at = -HUGE_VAL;
+  double aside_until = -HUGE_VAL;  ///< it makes room for another one, seconds
   struct Closed {
     ClosedFloor floor;
     double until = 0;
   };
   std::vector<Closed> closed;
+
+  /// Nothing keeps it where it stands.
+  [[nodiscard]] bool is_idle() const {
+    return reachable && (goal.kind == GoalKind::stay || (goal.kind == GoalKind::home && has_arrived));
+  }
 };
 
 namespace {
@@ -144,6 +151,9 @@ void TeamPilot::direct(Member& m, const Goal& goal, double now) {
     journal_.push_back({now, JournalKind::goal, name(m.robot), fmt::format("{}: {}", name_of(goal.kind), goal.reason)});
   }
   m.goal = goal;
+  const bool rests = goal.kind == GoalKind::stay || goal.kind == GoalKind::home;
+  if (rests && now < m.aside_until) return;
+  m.aside_until = -HUGE_VAL;
   if (goal.kind == GoalKind::stay) {
     m.follower.stop();
     m.has_way = false;
@@ -174,6 +184,7 @@ DriveCommand TeamPilot::steer(std::size_t robot, double now, double dt) {
   Member* m = member(make_id<RobotId>(robot));
   if (m == nullptr || !m->has_way) return {};
   const FollowStep step = m->follower.step(map(), m->pose, m->scan, laser_, dt);
+  m->has_arrived = step.status == FollowStatus::arrived;
   if (step.status != FollowStatus::blocked) {
     m->is_blocked = false;
     return step.command;
@@ -181,11 +192,35 @@ DriveCommand TeamPilot::steer(std::size_t robot, double now, double dt) {
   if (m->is_blocked) return step.command;
   m->is_blocked = true;
   journal_.push_back({now, JournalKind::blocked, name(m->robot), "something stands in the way"});
-  if (step.obstruction) {
+  if (step.obstruction && !is_let_pass(*m, *step.obstruction, now)) {
     m->closed.push_back({{*step.obstruction, options_.closed_radius}, now + options_.closed_for});
   }
   find_way(*m, now);
   return step.command;
+}
+
+/// Whether what blocks a robot is another one that has nothing to do, and that now makes room.
+bool TeamPilot::is_let_pass(const Member& blocked, const ManifoldPoint& obstruction, double now) {
+  const std::vector<ManifoldPoint>& way = blocked.follower.route().points;
+  const ClosedFloor stand{point_of(blocked.pose), options_.closed_radius};
+  for (Member& other : members_) {
+    if (&other == &blocked || !other.is_idle()) continue;
+    if (map().island_of(other.pose.patch) != map().island_of(obstruction.patch)) continue;
+    const Vector2d at = project(map(), point_of(other.pose));
+    if ((at - project(map(), obstruction)).norm() > options_.in_the_way) continue;
+    ManifoldRoute aside = plan_route_aside(*floor_, other.pose, way, {&stand, 1});
+    // Where it can only come out, the other will back off before it.
+    if (aside.status != RouteStatus::found) aside = plan_route_aside(*floor_, other.pose, way);
+    if (aside.status != RouteStatus::found) continue;
+    other.follower.follow(std::move(aside));
+    other.has_way = true;
+    other.has_arrived = false;
+    other.way_found_at = now;
+    other.aside_until = now + options_.aside_for;
+    journal_.push_back({now, JournalKind::goal, name(other.robot), "aside: lets " + name(blocked.robot) + " pass"});
+    return true;
+  }
+  return false;
 }
 
 void TeamPilot::set_reachable(std::size_t robot, bool reachable) {

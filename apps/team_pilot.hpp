@@ -27,6 +27,8 @@ struct PilotOptions {
   double route_period = 4;     ///< a route is planned anew this often: more is known by then, seconds
   double closed_for = 15;      ///< where a robot was blocked no other way leads through for so long, seconds
   double closed_radius = 0.4;  ///< metres
+  double in_the_way = 0.8;     ///< a robot this near to where another one is blocked is what blocks it, metres
+  double aside_for = 20;       ///< a robot that made room stays there for so long, seconds
   double propose_period = 10;  ///< islands are compared with one another this often, seconds
   /// What looks alike is taken for the same place at once, and nobody goes to see: an experiment's baseline.
   bool greedy = false;
@@ -83,6 +85,7 @@ class TeamPilot {
   void settle(double now, const Settled& settled);
   void direct(Member& member, const Goal& goal, double now);
   void find_way(Member& member, double now);
+  [[nodiscard]] bool is_let_pass(const Member& blocked, const ManifoldPoint& obstruction, double now);
 
   PilotOptions options_;
   LaserModel laser_;

@@ -62,6 +62,42 @@ double length_of(const FloorPlan& plan, std::span<const ManifoldPoint> points) {
   return length;
 }
 
+std::optional<FloorPlace> stand_at(const FloorPlan& plan, const ManifoldPoint& point) {
+  const std::optional<FloorPlace> place = plan.locate(point);
+  return place ? standing_near(plan, *place, plan.options.reach) : std::nullopt;
+}
+
+/// The way of a search to a place that it reached, pulled taut, to a point (plane) in that place.
+ManifoldRoute route_to(const NavigableMap& map, const ManifoldPose& from, const FloorSearch& search,
+                       const FloorPlace& last, const Vector2d& to, const std::vector<bool>& closed) {
+  const FloorPlan& plan = *map.plan();
+  ManifoldRoute route;
+  CellWay way{{}, to, search.way_to(last)};
+  if (way.places.empty()) return route;
+  way.from = plan.centre(way.places.front());
+  route.status = RouteStatus::found;
+  if (map.is_passable(point_of(from))) {
+    way.from = map.project(point_of(from));
+  } else {
+    route.points.push_back(point_of(from));
+  }
+  for (const WayPoint& point : pull_taut(plan, way, closed, kSpacing)) route.points.push_back(on_patch(plan, point));
+  route.length = length_of(plan, route.points);
+  return route;
+}
+
+/// The squared distance of a point to a line of points.
+double squared_distance(const Vector2d& p, std::span<const Vector2d> line) {
+  double least = line.empty() ? std::numeric_limits<double>::infinity() : (line[0] - p).squaredNorm();
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Vector2d along = line[i] - line[i - 1];
+    const double length = along.squaredNorm();
+    const double share = length > 0 ? std::clamp((p - line[i - 1]).dot(along) / length, 0.0, 1.0) : 0.0;
+    least = std::min(least, (line[i - 1] + share * along - p).squaredNorm());
+  }
+  return least;
+}
+
 }  // namespace
 
 const char* name_of(RouteStatus status) {
@@ -77,31 +113,31 @@ const char* name_of(RouteStatus status) {
 ManifoldRoute plan_route(const NavigableMap& map, const ManifoldPose& from, const ManifoldPoint& goal,
                          std::span<const ClosedFloor> closed) {
   const FloorPlan& plan = *map.plan();
-  const auto stand = [&](const ManifoldPoint& point) {
-    const std::optional<FloorPlace> place = plan.locate(point);
-    return place ? standing_near(plan, *place, plan.options.reach) : std::nullopt;
-  };
-  ManifoldRoute route;
-  const std::optional<FloorPlace> first = stand(point_of(from));
-  const std::optional<FloorPlace> last = stand(goal);
-  if (!first || !last) {
-    route.status = !first ? RouteStatus::start_off_ground : RouteStatus::goal_off_ground;
-    return route;
-  }
+  const std::optional<FloorPlace> first = stand_at(plan, point_of(from));
+  const std::optional<FloorPlace> last = stand_at(plan, goal);
+  if (!first) return {RouteStatus::start_off_ground, {}, 0};
+  if (!last) return {RouteStatus::goal_off_ground, {}, 0};
   const std::vector<bool> closed_now = closed_places(plan, closed);
-  CellWay way{plan.centre(*first), plan.centre(*last), search_floor(plan, *first, last, closed_now).way_to(*last)};
-  if (way.places.empty()) return route;
-  route.status = RouteStatus::found;
-  if (map.is_passable(point_of(from))) {
-    way.from = map.project(point_of(from));
-  } else {
-    route.points.push_back(point_of(from));
+  const Vector2d to = map.is_passable(goal) ? map.project(goal) : plan.centre(*last);
+  return route_to(map, from, search_floor(plan, *first, last, closed_now), *last, to, closed_now);
+}
+
+ManifoldRoute plan_route_aside(const NavigableMap& map, const ManifoldPose& from, std::span<const ManifoldPoint> way,
+                               std::span<const ClosedFloor> closed, const AsideOptions& options) {
+  const FloorPlan& plan = *map.plan();
+  const std::optional<FloorPlace> first = stand_at(plan, point_of(from));
+  if (!first) return {RouteStatus::start_off_ground, {}, 0};
+  std::vector<Vector2d> barred;
+  for (const ManifoldPoint& point : way) barred.push_back(map.project(point));
+  const std::vector<bool> closed_now = closed_places(plan, closed);
+  const FloorSearch search = search_floor(plan, *first, std::nullopt, closed_now);
+  std::optional<std::uint32_t> best;
+  for (std::uint32_t k = 0; k < search.cost.size(); ++k) {
+    if (search.length[k] > options.farthest || (best && search.cost[k] >= search.cost[*best])) continue;
+    if (squared_distance(plan.centre(place_of(k)), barred) >= options.apart * options.apart) best = k;
   }
-  if (map.is_passable(goal)) way.to = map.project(goal);
-  for (const WayPoint& point : pull_taut(plan, way, closed_now, kSpacing))
-    route.points.push_back(on_patch(plan, point));
-  route.length = length_of(plan, route.points);
-  return route;
+  if (!best) return {};
+  return route_to(map, from, search, place_of(*best), plan.centre(place_of(*best)), closed_now);
 }
 
 }  // namespace helicoid

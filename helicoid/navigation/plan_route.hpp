@@ -37,4 +37,16 @@ struct ClosedFloor {
 [[nodiscard]] ManifoldRoute plan_route(const NavigableMap& map, const ManifoldPose& from, const ManifoldPoint& goal,
                                        std::span<const ClosedFloor> closed = {});
 
+struct AsideOptions {
+  double apart = 0.6;    ///< from the other's way: two radii, both margins and a little, metres
+  double farthest = 15;  ///< metres that a robot goes to let another one pass
+};
+
+/// The route to the nearest place from which a robot bars nothing of another one's way (as routes have it).
+/// Unreachable: there is none, or only through what is closed, as where the other one stands.
+[[nodiscard]] ManifoldRoute plan_route_aside(const NavigableMap& map, const ManifoldPose& from,
+                                             std::span<const ManifoldPoint> way,
+                                             std::span<const ClosedFloor> closed = {},
+                                             const AsideOptions& options = {});
+
 }  // namespace helicoid

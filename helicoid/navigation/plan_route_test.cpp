@@ -113,6 +113,46 @@ TEST(PlanRoute, KeepsAwayFromWhatIsClosedForNow) {
   EXPECT_EQ(plan_route(map, from, goal, {&all_across, 1}).status, RouteStatus::unreachable);
 }
 
+/// A corridor of 1 m by 12 m with a niche of 1 m by 1.5 m on its left, 5 m along.
+struct CorridorWithNiche {
+  std::vector<Wall> walls{{{0, 0}, {12, 0}},    {{12, 0}, {12, 1}}, {{12, 1}, {6, 1}}, {{6, 1}, {6, 2.5}},
+                          {{6, 2.5}, {5, 2.5}}, {{5, 2.5}, {5, 1}}, {{5, 1}, {0, 1}},  {{0, 1}, {0, 0}}};
+  Builder builder;
+  CorridorWithNiche() {
+    for (const Pose2& pose : {Pose2{1, 0.5, 0}, {4, 0.5, 0}, {5.5, 0.5, 1.57}, {8, 0.5, 0}, {8, 0.5, 3.1}}) {
+      builder.add(walls, pose);
+    }
+  }
+  /// All along the corridor.
+  std::vector<ManifoldPoint> way{
+      {PatchId{0}, {0, 0}}, {PatchId{1}, {0, 0}}, {PatchId{3}, {0, 0}}, {PatchId{3}, {3.5, 0}}};
+};
+
+TEST(PlanRouteAside, LeadsToTheNearestPlaceThatTheOtherPassesBy) {
+  const CorridorWithNiche corridor;
+  const NavigableMap map(corridor.builder.map, neighbours_of(corridor.builder.map));
+  const ManifoldPose parked{PatchId{3}, {-1, 0, 0}};
+  const ManifoldRoute route = plan_route_aside(map, parked, corridor.way);
+  ASSERT_EQ(route.status, RouteStatus::found);
+  const Vector2d there = project(corridor.builder.map, route.points.back());
+  EXPECT_NEAR(there.x(), 5.5, 0.3);
+  EXPECT_NEAR(there.y(), 1.1, 0.15);
+  EXPECT_GE(closest(corridor.builder.map, route, corridor.walls), 0.25);
+}
+
+TEST(PlanRouteAside, LeadsNowhereIfThereIsNoSuchPlaceOrTheOtherStandsInTheWay) {
+  const CorridorWithNiche corridor;
+  const NavigableMap map(corridor.builder.map, neighbours_of(corridor.builder.map));
+  const ManifoldPose parked{PatchId{3}, {-1, 0, 0}};
+  const ClosedFloor other{{PatchId{2}, {0, 0}}, 0.7};
+  EXPECT_EQ(plan_route_aside(map, parked, corridor.way, {&other, 1}).status, RouteStatus::unreachable);
+  AsideOptions near;
+  near.farthest = 1;
+  EXPECT_EQ(plan_route_aside(map, parked, corridor.way, {}, near).status, RouteStatus::unreachable);
+  const ManifoldPose off{PatchId{0}, {-30, 0, 0}};
+  EXPECT_EQ(plan_route_aside(map, off, corridor.way).status, RouteStatus::start_off_ground);
+}
+
 TEST(PlanRoute, KeepsItsClearanceInClutteredRooms) {
   Random random(5);
   int found = 0;
