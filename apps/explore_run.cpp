@@ -116,7 +116,7 @@ class Exploration {
       on_board_[i].plan(stamp());
       over_ = over_ && on_board_[i].team_plan().finished;
     }
-    if (job_.observer && !job_.observer(simulation_.now(), simulation_, pilot_)) over_ = true;
+    if (job_.observer && !job_.observer(simulation_.now(), simulation_, pilot_, recording_)) over_ = true;
   }
 
   void steer() {

@@ -27,7 +27,7 @@ struct ExploreJob {
   /// Asked before every plan what an operator has said since the last one.
   std::function<std::vector<Order>(double now, const Map&)> orders;
   /// Told after every plan; false: it is over.
-  std::function<bool(double now, const LiveSimulation&, const TeamPilot&)> observer;
+  std::function<bool(double now, const LiveSimulation&, const TeamPilot&, const SimulatedRecording&)> observer;
 };
 
 struct ExploreRun {

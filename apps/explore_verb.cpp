@@ -109,7 +109,7 @@ int run_verb(const ExploreArguments& a) {
   const Result<OutputFolder> folder = OutputFolder::open(a.out, "summary.json", a.force);
   if (!folder) return report_failure(folder.error().message);
   ProgressBar bar;
-  job.observer = [&bar](double now, const LiveSimulation&, const TeamPilot& pilot) {
+  job.observer = [&bar](double now, const LiveSimulation&, const TeamPilot& pilot, const SimulatedRecording&) {
     bar.say(fmt::format("exploring: {:.0f} s, {} patches, {} frontiers", now, pilot.map().patch_count(),
                         pilot.team_plan().frontiers.size()));
     return true;

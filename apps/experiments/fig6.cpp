@@ -26,7 +26,7 @@ void draw(const Map& map, const std::string& name, std::vector<ExperimentPicture
 Result<std::vector<ExperimentPicture>> draw_before(const World& world, std::uint64_t seed, double merged_at) {
   std::vector<ExperimentPicture> pictures;
   ExploreJob job = explore_from_starts(world, kRobots, seed);
-  job.observer = [&](double now, const LiveSimulation&, const TeamPilot& pilot) {
+  job.observer = [&](double now, const LiveSimulation&, const TeamPilot& pilot, const SimulatedRecording&) {
     if (now + 1.5 * job.plan_period < merged_at) return true;
     draw(pilot.map(), "before", pictures);
     return false;
@@ -48,7 +48,7 @@ Result<Entered> enter(const World& world, std::uint64_t seed) {
   std::size_t most_islands = 0;
   double merged_at = 0;
   ExploreJob job = explore_from_starts(world, kRobots, seed);
-  job.observer = [&](double now, const LiveSimulation&, const TeamPilot& pilot) {
+  job.observer = [&](double now, const LiveSimulation&, const TeamPilot& pilot, const SimulatedRecording&) {
     const std::size_t islands = pilot.map().islands().size();
     if (now > kAtDoor) most_islands = std::max(most_islands, islands);
     if (islands == 1 && merged_at == 0) merged_at = now;

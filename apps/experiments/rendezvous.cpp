@@ -120,7 +120,7 @@ Result<MetRun> explore(const World& world, std::span<const std::size_t> starts, 
   job.pilot.greedy = policy == Policy::believe;
   job.longest = kLongest;
   Witness witness;
-  job.observer = [&](double now, const LiveSimulation& simulation, const TeamPilot& pilot) {
+  job.observer = [&](double now, const LiveSimulation& simulation, const TeamPilot& pilot, const SimulatedRecording&) {
     return witness.look(now, simulation, pilot);
   };
   Result<ExploreRun> run = run_exploration(job);

@@ -1,6 +1,5 @@
 // What does a team gain by deciding together where each of its robots goes?
 #include <algorithm>
-#include <limits>
 
 #include "apps/experiments/drawn_floors.hpp"
 #include "apps/experiments/list.hpp"
@@ -16,27 +15,39 @@ constexpr double kShare = 0.95;
 constexpr double kCell = 0.10;     // of the raster on which coverage is counted, metres
 constexpr double kLongest = 1800;  // simulated seconds
 
-/// When the robots had seen this share of the floor, by where they truly were; seconds. Infinity: never.
-double covered_at(const ExploreRun& run, std::vector<Vector2d> open, double share) {
-  const Map& map = run.map.mapper.map();
-  const std::vector<TrueTrack>& tracks = run.recording.tracks();
-  std::vector<const Patch*> patches;
-  for (std::size_t i = 0; i < map.patch_count(); ++i) patches.push_back(&map.patch(make_id<PatchId>(i)));
-  std::stable_sort(patches.begin(), patches.end(), [](auto* a, auto* b) { return a->stamp < b->stamp; });
-  const auto left = static_cast<std::size_t>((1 - share) * static_cast<double>(open.size()));
-  for (const Patch* patch : patches) {
-    const TrueTrack& track = tracks[patch->robot.index()];
-    const Pose2 T_patch_world = track.T_world_robot[patch->scan_index].inverse();
-    const Matrix2d R = T_patch_world.rotation();
-    const double reach = patch->free_reach * patch->free_reach;
-    std::erase_if(open, [&](const Vector2d& p_world) {
-      const Vector2d p = R * p_world + T_patch_world.translation();
-      return p.squaredNorm() <= reach && is_ground(*patch, p);
-    });
-    if (open.size() <= left) return patch->stamp - LiveSimulation::kFirstStamp;
+/// How much of a floor the scans that were kept have seen, by where the robots truly were.
+class SeenFloor {
+ public:
+  explicit SeenFloor(std::vector<Vector2d> floor)
+      : left_(std::move(floor)), enough_(static_cast<std::size_t>((1 - kShare) * static_cast<double>(left_.size()))) {}
+
+  /// Looks at the patches that are new since the last time.
+  void update(const Map& map, const std::vector<TrueTrack>& tracks) {
+    for (; patches_ < map.patch_count() && !is_seen(); ++patches_) {
+      const Patch& patch = map.patch(make_id<PatchId>(patches_));
+      strike_out(patch, tracks[patch.robot.index()].T_world_robot[patch.scan_index].inverse());
+      if (left_.size() <= enough_) seen_at_ = patch.stamp - LiveSimulation::kFirstStamp;
+    }
   }
-  return std::numeric_limits<double>::infinity();
-}
+
+  [[nodiscard]] bool is_seen() const { return seen_at_ < kLongest; }
+  [[nodiscard]] double seen_at() const { return seen_at_; }  ///< seconds; the longest time if it never was
+
+ private:
+  void strike_out(const Patch& patch, const Pose2& T_patch_world) {
+    const Matrix2d R = T_patch_world.rotation();
+    const double reach = patch.free_reach * patch.free_reach;
+    std::erase_if(left_, [&](const Vector2d& p_world) {
+      const Vector2d p_patch = R * p_world + T_patch_world.translation();
+      return p_patch.squaredNorm() <= reach && is_ground(patch, p_patch);
+    });
+  }
+
+  std::vector<Vector2d> left_;
+  std::size_t enough_;
+  std::size_t patches_ = 0;
+  double seen_at_ = kLongest;
+};
 
 struct Building {
   World world;
@@ -58,7 +69,7 @@ Result<Building> prepare(Result<World> world, std::size_t robots, std::uint64_t 
   return Building{std::move(*world), std::move(*starts), floor->swept_centres()};
 }
 
-/// Seconds until the team has seen 95 % of what it can reach; the longest time if it never did.
+/// Seconds until the team has seen 95 % of what it can reach, where the run ends; the longest time if it never did.
 Result<double> time_to_cover(const Building& building, std::uint64_t seed, bool coordinated) {
   ExploreJob job;
   job.world = building.world;
@@ -66,9 +77,14 @@ Result<double> time_to_cover(const Building& building, std::uint64_t seed, bool 
   job.simulation.seed = seed;
   job.pilot.explorer.coordinated = coordinated;
   job.longest = kLongest;
+  SeenFloor floor(building.floor);
+  job.observer = [&](double, const LiveSimulation&, const TeamPilot& pilot, const SimulatedRecording& recording) {
+    floor.update(pilot.map(), recording.tracks());
+    return !floor.is_seen();
+  };
   const Result<ExploreRun> run = run_exploration(job);
   if (!run) return tl::unexpected(run.error());
-  return std::min(kLongest, covered_at(*run, building.floor, kShare));
+  return floor.seen_at();
 }
 
 double median(std::vector<double> values) {
