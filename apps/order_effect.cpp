@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "helicoid/eval/trajectory_error.hpp"
@@ -10,10 +11,33 @@ namespace helicoid {
 
 namespace {
 
+bool is_closure(const Hypothesis& h) {
+  return h.state == HypothesisState::accepted && h.source == HypothesisSource::lookalike;
+}
+
 std::size_t closures_of(const Mapper& mapper) {
-  return static_cast<std::size_t>(std::count_if(mapper.ledger().begin(), mapper.ledger().end(), [](const auto& h) {
-    return h.state == HypothesisState::accepted && h.source == HypothesisSource::lookalike;
-  }));
+  return static_cast<std::size_t>(std::count_if(mapper.ledger().begin(), mapper.ledger().end(), is_closure));
+}
+
+/// The most that the other map has the places of this one's closures elsewhere to each other, metres. Infinity: on
+/// different islands.
+double closures_apart(const Mapper& mapper, const Map& other) {
+  double most = 0;
+  const Map& map = mapper.map();
+  const auto scan_of = [&](PatchId id) -> TrackedScan {
+    const Patch& patch = map.patch(id);
+    return other.robot(patch.robot).trajectory[patch.scan_index];
+  };
+  for (const Hypothesis& h : mapper.ledger()) {
+    if (!is_closure(h)) continue;
+    const ManifoldPose a = scan_of(h.a).pose;
+    const ManifoldPose b = scan_of(h.b).pose;
+    if (other.island_of(a.patch) != other.island_of(b.patch)) return std::numeric_limits<double>::infinity();
+    const Pose2 T_a_b = map.T_plane_patch(h.a).inverse() * map.T_plane_patch(h.b);
+    const Pose2 T_a_b_other = other.project(a).inverse() * other.project(b);
+    most = std::max(most, (T_a_b.translation() - T_a_b_other.translation()).norm());
+  }
+  return most;
 }
 
 /// The island of each robot's scans; one that has none is nowhere.
@@ -75,6 +99,7 @@ OrderEffect compare_orders(const Mapper& heard, const Mapper& stamped) {
   effect.same_islands = share_alike(islands_of_robots(heard.map()), islands_of_robots(stamped.map()));
   effect.closures_heard = closures_of(heard);
   effect.closures_stamped = closures_of(stamped);
+  effect.closures_apart_m = std::max(closures_apart(heard, stamped.map()), closures_apart(stamped, heard.map()));
   double count = 0;
   for (const auto& [island, pairs] : pairs_of(heard.map(), stamped.map())) {
     const Pose2 T_stamped_heard = best_transform(pairs);

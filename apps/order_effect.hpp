@@ -9,6 +9,8 @@ struct OrderEffect {
   bool same_islands = false;         ///< the same robots on each
   std::size_t closures_heard = 0;    ///< accepted look-alikes of the map as it was heard
   std::size_t closures_stamped = 0;  ///< and of the map by stamps
+  /// The most that the maps disagree about where two places lie to each other that either knows for closed, metres.
+  double closures_apart_m = 0;
   double mean_m = 0;  ///< between the poses of one scan in the two maps, each island after one rigid transform
   double farthest_m = 0;
   double mean_deg = 0;
