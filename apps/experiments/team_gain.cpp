@@ -69,8 +69,13 @@ Result<Building> prepare(Result<World> world, std::size_t robots, std::uint64_t 
   return Building{std::move(*world), std::move(*starts), floor->swept_centres()};
 }
 
-/// Seconds until the team has seen 95 % of what it can reach, where the run ends; the longest time if it never did.
-Result<double> time_to_cover(const Building& building, std::uint64_t seed, bool coordinated) {
+struct Cover {
+  double seconds = 0;  ///< until the team has seen 95 % of what it can reach; the longest time if it never did
+  std::size_t collisions = 0;
+};
+
+/// A run that ends as soon as the team has seen so much.
+Result<Cover> cover(const Building& building, std::uint64_t seed, bool coordinated) {
   ExploreJob job;
   job.world = building.world;
   for (const Pose2& start : building.starts) job.robots.push_back({start});
@@ -84,7 +89,7 @@ Result<double> time_to_cover(const Building& building, std::uint64_t seed, bool 
   };
   const Result<ExploreRun> run = run_exploration(job);
   if (!run) return tl::unexpected(run.error());
-  return floor.seen_at();
+  return Cover{floor.seen_at(), run->contacts.size()};
 }
 
 double median(std::vector<double> values) {
@@ -102,20 +107,23 @@ Result<World> world_named(const std::string& name) {
 Result<Outcome> compare(const std::vector<std::string>& worlds, std::size_t robots, std::uint64_t seed) {
   Outcome outcome;
   std::vector<double> sooner;
+  std::size_t collisions = 0;
   for (const std::string& name : worlds) {
     const Result<Building> building = prepare(world_named(name), robots, seed);
     if (!building) return tl::unexpected(building.error());
-    const Result<double> together = time_to_cover(*building, seed, true);
+    const Result<Cover> together = cover(*building, seed, true);
     if (!together) return tl::unexpected(together.error());
-    const Result<double> alone = time_to_cover(*building, seed, false);
+    const Result<Cover> alone = cover(*building, seed, false);
     if (!alone) return tl::unexpected(alone.error());
-    sooner.push_back(100 * (1 - *together / *alone));
-    outcome.metrics.push_back({name + "_together_s", *together});
-    outcome.metrics.push_back({name + "_nearest_s", *alone});
+    sooner.push_back(100 * (1 - together->seconds / alone->seconds));
+    collisions += together->collisions + alone->collisions;
+    outcome.metrics.push_back({name + "_together_s", together->seconds});
+    outcome.metrics.push_back({name + "_nearest_s", alone->seconds});
     // A bar is asked of four robots alone.
     outcome.metrics.push_back({name + (robots == 4 ? "_four_sooner_percent" : "_sooner_percent"), sooner.back()});
   }
   outcome.metrics.push_back({robots == 4 ? "median_four_sooner_percent" : "median_sooner_percent", median(sooner)});
+  outcome.metrics.push_back({"collisions_count", static_cast<double>(collisions)});
   return outcome;
 }
 
@@ -133,7 +141,7 @@ Experiment team_gain_experiment() {
       "by where the robots truly were.";
   std::vector<std::string> worlds = shipped_worlds();
   worlds.insert(worlds.end(), {"school", "store"});
-  e.bars = {{"median_four_sooner_percent", 20.0, std::nullopt, true}};
+  e.bars = {{"median_four_sooner_percent", 20.0, std::nullopt, true}, {"collisions_count", std::nullopt, 0.0, false}};
   for (const std::string& name : worlds) e.bars.push_back({name + "_four_sooner_percent", -5.0, std::nullopt, true});
   e.seeds = 10;
   e.quick_seeds = 1;

@@ -20,6 +20,7 @@ struct Explorer::Situation {
   Eigen::MatrixXd way;                ///< by member and frontier, metres
   bool waits = false;                 ///< something will be tried again, or is on its way
   double ways_home = 0;               ///< of those who are on their way home, metres
+  bool stranded = false;              ///< somebody sees no way home
 
   void tell(TeamPlan& plan, std::size_t member, Goal goal) {
     goal.robot = members[member].robot;
@@ -84,7 +85,7 @@ Explorer::Explorer(const ExplorerOptions& options)
 TeamPlan Explorer::plan(double now, const Map& map, const Neighbours& neighbours, std::span<const Travel> travel,
                         std::span<const TeamMember> members, std::span<const Doubt> doubts,
                         std::span<const Order> orders) {
-  Situation s{now, map, travel, members, doubts, {}, {}, {}, false, 0};
+  Situation s{now, map, travel, members, doubts, {}, {}, {}, false, 0, false};
   TeamPlan plan;
   orders_.take(orders);
   for (const TeamMember& member : members) {
@@ -258,8 +259,8 @@ void Explorer::go_home(Situation& s, TeamPlan& plan) {
   for (std::size_t i = 0; i < s.members.size(); ++i) {
     if (s.is_free[i] == 0) continue;
     const double way = s.travel[i](s.members[i].home);
-    if (!std::isfinite(way)) continue;
-    if (way > options_.at_home) s.ways_home += way;
+    s.stranded = s.stranded || !std::isfinite(way);
+    if (std::isfinite(way) && way > options_.at_home) s.ways_home += way;
     s.tell(plan, i, {{}, GoalKind::home, s.members[i].home, std::nullopt, "nothing is left to look at", 0});
   }
 }
@@ -284,7 +285,7 @@ void Explorer::conclude(Situation& s, TeamPlan& plan) {
     nearest_home_ = s.ways_home;
     nearest_home_at_ = s.now;
   }
-  const bool all_home = s.ways_home <= 0;
+  const bool all_home = s.ways_home <= 0 && !s.stranded;
   plan.finished = all_home || s.now - nearest_home_at_ > options_.farewell;
   plan.end_state = !s.frontiers.empty() ? EndState::stopped : plan.finished ? EndState::explored : EndState::returning;
   plan.reason = s.frontiers.empty() ? "no frontier is left that a robot can look at"

@@ -98,6 +98,18 @@ TEST(Explorer, WhereAllIsKnownTheTeamGoesHomeAndIsDone) {
   EXPECT_THAT(home.reason, HasSubstr("no frontier is left"));
 }
 
+TEST(Explorer, SaysThatARobotSeesNoWayHome) {
+  Hall hall;
+  for (const double x : {3.0, 12.0, 20.0, 28.0, 37.0}) hall.look_round(x);
+  hall.put({20, 3, 0});
+  hall.members[0].home = {PatchId{0}, {0, 90}};
+  TeamPlan plan = hall.plan();
+  EXPECT_EQ(plan.end_state, EndState::returning);
+  for (int i = 0; i < 100 && !plan.finished; ++i) plan = hall.plan();
+  EXPECT_EQ(plan.end_state, EndState::explored);
+  EXPECT_THAT(plan.reason, HasSubstr("not everybody got home"));
+}
+
 TEST(Explorer, AForbiddenRegionIsNeverAGoal) {
   Hall hall = half_seen_hall();
   hall.put({20, 3, 0});

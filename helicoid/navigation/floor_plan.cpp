@@ -216,11 +216,6 @@ Vector2d FloorPlan::centre(const FloorPlace& place) const {
          Vector2d(block.column * kBlockCells + place.column + 0.5, block.row * kBlockCells + place.row + 0.5);
 }
 
-int FloorPlan::least_clearance_cm() const {
-  // A line between two cells that have it comes a centimetre nearer to an obstacle than either centre.
-  return static_cast<int>(std::ceil(100 * options.least_clearance() - 1e-6)) + 1;
-}
-
 FloorPlan make_floor_plan(const Map& map, const Neighbours& neighbours, const NavigationOptions& options,
                           const FloorPlan* before) {
   FloorPlan plan;

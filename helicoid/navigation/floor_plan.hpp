@@ -52,9 +52,6 @@ struct FloorPlan {
   [[nodiscard]] int clearance_cm(const FloorPlace& place) const {
     return tiles[place.tile]->clearance[tile_index(place.column + kHaloCells, place.row + kHaloCells)];
   }
-  /// The clearance without which a place is not driven through, centimetres: with room for what the raster rounds.
-  [[nodiscard]] int least_clearance_cm() const;
-
   /// Calls f(place) for the places next to this one in direction (dc, dr), each -1..1: several where sheets part.
   template <class F>
   void for_each_next(const FloorPlace& from, int dc, int dr, F&& f) const {

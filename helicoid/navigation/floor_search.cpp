@@ -17,7 +17,7 @@ struct StepCosts {
   std::uint32_t most = 0;
 
   explicit StepCosts(const FloorPlan& plan) {
-    const int least = plan.least_clearance_cm();
+    const int least = least_clearance_cm(plan.options);
     const double comfortable = 100 * std::min(plan.options.comfortable, kMostClearance);
     for (int cm = least; cm < 256; ++cm) {
       const double tightness = std::clamp((comfortable - cm) / std::max(comfortable - least, 1.0), 0.0, 1.0);
@@ -70,7 +70,7 @@ void for_each_direction(F&& f) {
 }  // namespace
 
 std::optional<FloorPlace> standing_near(const FloorPlan& plan, const FloorPlace& place, double reach) {
-  const int least = plan.least_clearance_cm();
+  const int least = least_clearance_cm(plan.options);
   const Vector2d from = plan.centre(place);
   std::vector<FloorPlace> seen{place};
   std::optional<FloorPlace> best;

@@ -11,6 +11,10 @@ namespace {
 
 /// A robot that stood somewhere swept this much floor, and a little for the raster; metres.
 constexpr double kFootstep = 0.30;
+/// Cells whose centre lies this near to where a robot's was: that which holds it is among them; metres.
+constexpr double kSameStand = 0.75 * kFloorCell;
+/// Walls are known to so many centimetres, raster included. What stands nearer by more than that has come since.
+constexpr int kForgiven = 5;
 
 using SquaredDistances = std::array<float, kTileCells * kTileCells>;
 
@@ -141,6 +145,11 @@ double FloorTile::clearance_between(const Vector2d& p) const {
          up * ((1 - right) * clearance_at(column, row + 1) + right * clearance_at(column + 1, row + 1));
 }
 
+int least_clearance_cm(const NavigationOptions& options) {
+  // A line between two cells that have it comes a centimetre nearer to an obstacle than either centre.
+  return static_cast<int>(std::ceil(100 * options.least_clearance() - 1e-6)) + 1;
+}
+
 void lay_floor(FloorTile& tile, const NavigationOptions& options) {
   std::vector<const PatchRaster::Part*> parts;
   for (const auto& raster : tile.rasters) parts.push_back(raster->part(tile.block));
@@ -163,6 +172,14 @@ void lay_floor(FloorTile& tile, const NavigationOptions& options) {
       const auto cell = tile_index(column, row);
       tile.clearance[cell] = static_cast<std::uint8_t>(100 * std::sqrt(distances[cell]) + 1e-3F);
     }
+  }
+  // There was room for a robot wherever one stood.
+  const auto least = static_cast<std::uint8_t>(least_clearance_cm(options));
+  for (const Vector2d& step : tile.footsteps) {
+    for_each_cell_near(step, kSameStand, [&](int column, int row, float) {
+      std::uint8_t& at = tile.clearance[tile_index(column, row)];
+      if (at + kForgiven >= least) at = std::max(at, least);
+    });
   }
 }
 

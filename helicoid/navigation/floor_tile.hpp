@@ -19,7 +19,8 @@ struct FloorTile {
   std::vector<Vector2d> footsteps;                          ///< where robots stood, from the halo's corner, metres
   TileBits free{};
   /// To the nearest obstacle, or to the nearest cell that is not known to be free (and the margin beyond), whichever is
-  /// less; 0 where nothing is known. Centimetres from the cell's centre, up to 80, row by row, halo included.
+  /// less; the least that is driven through where a robot has stood; 0 where nothing is known. Centimetres from the
+  /// cell's centre, up to 80, row by row, halo included.
   std::vector<std::uint8_t> clearance;
 
   [[nodiscard]] double clearance_at(int tile_column, int tile_row) const {
@@ -28,6 +29,9 @@ struct FloorTile {
   /// Between cells' centres, bilinear; `p` in metres from the halo's corner, at least half a cell within the halo.
   [[nodiscard]] double clearance_between(const Vector2d& p) const;
 };
+
+/// The clearance without which a place is not driven through, with room for what the raster rounds.
+[[nodiscard]] int least_clearance_cm(const NavigationOptions& options);
 
 /// Fills in what follows from patches, rasters and footsteps.
 void lay_floor(FloorTile& tile, const NavigationOptions& options);

@@ -4,7 +4,7 @@ namespace helicoid {
 
 namespace {
 
-constexpr double kStep = 0.10;  // metres
+constexpr double kStep = 0.05;  // metres
 
 }  // namespace
 

@@ -16,7 +16,7 @@ double NavigableMap::clearance(const ManifoldPoint& point) const {
 
 bool NavigableMap::is_passable(const ManifoldPoint& point) const {
   const std::optional<FloorPlace> place = plan_->locate(point);
-  return place && plan_->clearance_cm(*place) >= plan_->least_clearance_cm();
+  return place && plan_->clearance_cm(*place) >= least_clearance_cm(plan_->options);
 }
 
 }  // namespace helicoid

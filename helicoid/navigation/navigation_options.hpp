@@ -5,7 +5,7 @@ namespace helicoid {
 
 struct NavigationOptions {
   double robot_radius = 0.20;  ///< metres
-  double margin = 0.05;        ///< kept from obstacles beyond the radius, metres
+  double margin = 0.03;        ///< kept from obstacles beyond the radius, metres
   double comfortable = 0.50;   ///< clearance that is sought where there is room; 0.8 at most; metres
   /// By what a metre at the least clearance costs more than one in comfort, as a share.
   double discomfort = 3;

@@ -33,7 +33,7 @@ struct ClosedFloor {
 
 /// The route of least cost, where a metre costs more the less room there is (NavigationOptions::discomfort), pulled
 /// taut. All of it keeps the least clearance but the first and the last few decimetres if the robot or the goal stand
-/// nearer to something than that; those lead straight away from it.
+/// nearer to something than that; those lead straight away from it. Where a robot has been, what room it had will do.
 [[nodiscard]] ManifoldRoute plan_route(const NavigableMap& map, const ManifoldPose& from, const ManifoldPoint& goal,
                                        std::span<const ClosedFloor> closed = {});
 

@@ -14,7 +14,7 @@ namespace helicoid {
 
 struct FollowerOptions {
   double robot_radius = 0.20;    ///< metres
-  double margin = 0.04;          ///< kept from everything that the scan shows, metres
+  double margin = 0.025;         ///< kept from everything that the scan shows, metres
   double top_speed = 0.6;        ///< metres a second
   double top_turn_rate = 1.0;    ///< radians a second
   double braking = 0.7;          ///< what is counted on, metres a second squared
