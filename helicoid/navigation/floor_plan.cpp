@@ -80,10 +80,12 @@ void raster_patches(FloorPlan& plan, const Map& map, const FloorPlan* before) {
     const auto id = make_id<PatchId>(i);
     const Patch& patch = map.patch(id);
     const Pose2& pose = map.T_plane_patch(id);
-    if (before != nullptr && i < before->rasters.size() && before->rasters[i]->holds(patch, pose)) {
+    std::vector<Vector2d> bystanders = plan.bystanders.about(map, id);
+    if (before != nullptr && i < before->rasters.size() && before->rasters[i]->holds(patch, pose, bystanders)) {
       plan.rasters.push_back(before->rasters[i]);
     } else {
-      plan.rasters.push_back(std::make_shared<const PatchRaster>(make_patch_raster(patch, pose)));
+      plan.rasters.push_back(
+          std::make_shared<const PatchRaster>(make_patch_raster(patch, pose, std::move(bystanders))));
     }
   }
 }
@@ -222,8 +224,12 @@ FloorPlan make_floor_plan(const Map& map, const Neighbours& neighbours, const Na
   plan.options = options;
   plan.T_plane_patch.assign(map.poses().begin(), map.poses().end());
   for (std::size_t i = 0; i < map.patch_count(); ++i) plan.island_of.push_back(map.island_of(make_id<PatchId>(i)));
-  if (before != nullptr) plan.footsteps = before->footsteps;
+  if (before != nullptr) {
+    plan.footsteps = before->footsteps;
+    plan.bystanders = before->bystanders;
+  }
   plan.footsteps.read(map);
+  plan.bystanders.read(map);
   raster_patches(plan, map, before);
   std::vector<FloorTile> tiles = group_patches(plan, with_ways(map, neighbours));
   put_footsteps(plan, tiles);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "helicoid/manifold/neighbours.hpp"
+#include "helicoid/navigation/bystanders.hpp"
 #include "helicoid/navigation/floor_tile.hpp"
 #include "helicoid/navigation/footsteps.hpp"
 
@@ -38,6 +39,7 @@ struct FloorPlan {
   std::vector<IslandId> island_of;   ///< by patch
   std::vector<std::shared_ptr<const PatchRaster>> rasters;
   Footsteps footsteps;
+  Bystanders bystanders;
   std::vector<std::shared_ptr<const FloorTile>> tiles;  ///< ascending by island and block
   /// By tile, by direction_index: the tiles on the blocks beside it that share a patch with it, and with
   /// that its sheet.

@@ -15,6 +15,10 @@ constexpr double kBeamSpacing = 0.05;
 
 /// A raster is made anew when what it shows has moved this far, metres.
 constexpr double kTolerance = 0.01;
+/// The same of a bystander, metres.
+constexpr double kBystanderMoved = 0.05;
+/// No part of a robot is farther from its centre, as the map has that; metres.
+constexpr double kBody = 0.40;
 
 /// The star of the patch's free space without its rim and without what lies far from the laser; patch frame.
 std::vector<Eigen::Vector2f> surely_free_ring(const Patch& patch) {
@@ -89,9 +93,12 @@ void for_each_block(const RowSpan& span, F&& f) {
   }
 }
 
-void add_obstacles(const Patch& patch, const Pose2& T_plane_patch, Parts& parts) {
+void add_obstacles(const Patch& patch, const Pose2& T_plane_patch, std::span<const Vector2d> bystanders, Parts& parts) {
   for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    const Vector2d p = T_plane_patch * Vector2d(patch.points.x[i], patch.points.y[i]);
+    const Vector2d p_patch(patch.points.x[i], patch.points.y[i]);
+    const auto returned = [&](const Vector2d& stand) { return (p_patch - stand).norm() < kBody; };
+    if (std::any_of(bystanders.begin(), bystanders.end(), returned)) continue;
+    const Vector2d p = T_plane_patch * p_patch;
     const std::int32_t column = cell_of(p.x());
     const std::int32_t row = cell_of(p.y());
     for (std::int32_t r = first_block_about(row); r <= last_block_about(row); ++r) {
@@ -111,14 +118,19 @@ const PatchRaster::Part* PatchRaster::part(const FloorBlock& block) const {
   return at != parts.end() && at->block == block ? &*at : nullptr;
 }
 
-bool PatchRaster::holds(const Patch& patch, const Pose2& T_plane_patch_now) const {
+bool PatchRaster::holds(const Patch& patch, const Pose2& T_plane_patch_now,
+                        std::span<const Vector2d> bystanders_now) const {
   if (patch.robot != robot || patch.scan_index != scan_index) return false;
+  const auto is_same = [](const Vector2d& a, const Vector2d& b) { return (a - b).norm() <= kBystanderMoved; };
+  if (!std::equal(bystanders.begin(), bystanders.end(), bystanders_now.begin(), bystanders_now.end(), is_same)) {
+    return false;
+  }
   const double moved = (T_plane_patch_now.translation() - T_plane_patch.translation()).norm();
   const double turned = std::abs(wrap_angle(T_plane_patch_now.yaw - T_plane_patch.yaw));
   return moved + turned * patch.reach <= kTolerance;
 }
 
-PatchRaster make_patch_raster(const Patch& patch, const Pose2& T_plane_patch) {
+PatchRaster make_patch_raster(const Patch& patch, const Pose2& T_plane_patch, std::vector<Vector2d> bystanders) {
   Parts parts(T_plane_patch.translation(), patch.free_reach);
   RowScanner scanner;
   scanner.scan(patch.free_space, T_plane_patch, kFloorCell, [&](const RowSpan& span) {
@@ -132,8 +144,8 @@ PatchRaster make_patch_raster(const Patch& patch, const Pose2& T_plane_patch) {
       if (part != nullptr) part->surely_free[tile_row] |= bits;
     });
   });
-  add_obstacles(patch, T_plane_patch, parts);
-  return {patch.robot, patch.scan_index, T_plane_patch, parts.take()};
+  add_obstacles(patch, T_plane_patch, bystanders, parts);
+  return {patch.robot, patch.scan_index, T_plane_patch, std::move(bystanders), parts.take()};
 }
 
 }  // namespace helicoid

@@ -1,6 +1,7 @@
 // What one patch says of the floor, block by block: made once, and again only when the patch has moved in the plane.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "helicoid/manifold/patch.hpp"
@@ -18,12 +19,17 @@ struct PatchRaster {
   RobotId robot;
   std::size_t scan_index = 0;
   Pose2 T_plane_patch;
-  std::vector<Part> parts;  ///< of the blocks (halos included) where the patch has free cells; ascending
+  std::vector<Vector2d> bystanders;  ///< robots that stood about when the patch was made; metres, the patch's frame
+  std::vector<Part> parts;           ///< of the blocks (halos included) where the patch has free cells; ascending
   [[nodiscard]] const Part* part(const FloorBlock& block) const;
-  /// True if it is of this patch where that stands there, to a centimetre at the rim of what it sees.
-  [[nodiscard]] bool holds(const Patch& patch, const Pose2& T_plane_patch_now) const;
+  /// True if it is of this patch where that stands there, to a centimetre at the rim of what it sees, and of no other
+  /// bystanders.
+  [[nodiscard]] bool holds(const Patch& patch, const Pose2& T_plane_patch_now,
+                           std::span<const Vector2d> bystanders_now) const;
 };
 
-[[nodiscard]] PatchRaster make_patch_raster(const Patch& patch, const Pose2& T_plane_patch);
+/// What bystanders returned is no obstacle.
+[[nodiscard]] PatchRaster make_patch_raster(const Patch& patch, const Pose2& T_plane_patch,
+                                            std::vector<Vector2d> bystanders);
 
 }  // namespace helicoid

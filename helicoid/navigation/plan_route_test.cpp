@@ -277,5 +277,21 @@ TEST(NavigableMap, ForgetsWhatMorePatchesLookThroughThanSaw) {
   EXPECT_TRUE(NavigableMap(builder.map, neighbours_of(builder.map)).is_passable(there));
 }
 
+TEST(NavigableMap, TakesNoRobotOfTheTeamForAnObstacle) {
+  std::vector<Wall> walls = synthetic::rectangle(0, 0, 8, 5);
+  synthetic::append(walls, synthetic::rectangle(3.9, 2.4, 4.1, 2.6));
+  for (const bool is_robot : {false, true}) {
+    Builder builder;
+    MapEditor editor(builder.map);
+    const RobotId other = editor.add_robot("robot2", {builder.laser});
+    builder.add(walls, {2, 2.5, 0});
+    const ManifoldPose there{PatchId{0}, {2, 0, 0}};
+    const double then = builder.map.patch(PatchId{0}).stamp;
+    // It stood there when the patch was made; or it has been there long before, and then something was put there.
+    editor.append_scan(other, {is_robot ? then : then - 60, there, there.T_patch_robot, Matrix3d::Identity() * 1e-4});
+    EXPECT_EQ(NavigableMap(builder.map, neighbours_of(builder.map)).is_passable(point_of(there)), is_robot);
+  }
+}
+
 }  // namespace
 }  // namespace helicoid
