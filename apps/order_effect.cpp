@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "helicoid/eval/trajectory_error.hpp"
 
@@ -19,22 +20,27 @@ std::size_t closures_of(const Mapper& mapper) {
   return static_cast<std::size_t>(std::count_if(mapper.ledger().begin(), mapper.ledger().end(), is_closure));
 }
 
+/// Where the other map has the scan that a patch of this one was made from; nothing if it does not have it.
+std::optional<ManifoldPose> elsewhere(const Patch& patch, const Map& other) {
+  const Trajectory& trajectory = other.robot(patch.robot).trajectory;
+  if (patch.scan_index >= trajectory.size()) return std::nullopt;
+  return trajectory[patch.scan_index].pose;
+}
+
 /// The most that the other map has the places of this one's closures elsewhere to each other, metres. Infinity: on
-/// different islands.
+/// different islands, or not at all.
 double closures_apart(const Mapper& mapper, const Map& other) {
   double most = 0;
   const Map& map = mapper.map();
-  const auto scan_of = [&](PatchId id) -> TrackedScan {
-    const Patch& patch = map.patch(id);
-    return other.robot(patch.robot).trajectory[patch.scan_index];
-  };
   for (const Hypothesis& h : mapper.ledger()) {
     if (!is_closure(h)) continue;
-    const ManifoldPose a = scan_of(h.a).pose;
-    const ManifoldPose b = scan_of(h.b).pose;
-    if (other.island_of(a.patch) != other.island_of(b.patch)) return std::numeric_limits<double>::infinity();
+    const std::optional<ManifoldPose> a = elsewhere(map.patch(h.a), other);
+    const std::optional<ManifoldPose> b = elsewhere(map.patch(h.b), other);
+    if (!a || !b || other.island_of(a->patch) != other.island_of(b->patch)) {
+      return std::numeric_limits<double>::infinity();
+    }
     const Pose2 T_a_b = map.T_plane_patch(h.a).inverse() * map.T_plane_patch(h.b);
-    const Pose2 T_a_b_other = other.project(a).inverse() * other.project(b);
+    const Pose2 T_a_b_other = other.project(*a).inverse() * other.project(*b);
     most = std::max(most, (T_a_b.translation() - T_a_b_other.translation()).norm());
   }
   return most;

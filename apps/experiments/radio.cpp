@@ -1,5 +1,7 @@
 // Does a team finish when its radio fails for a while, a robot dies and another comes late?
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "apps/experiments/list.hpp"
 #include "apps/explore_quality.hpp"
@@ -24,6 +26,17 @@ ExploreJob disturbed(ExploreJob job, double undisturbed_s) {
   return job;
 }
 
+/// With a robot that will never move again.
+World with_body(World world, const Vector2d& p_world, double radius) {
+  constexpr int kSides = 24;
+  const auto corner = [&](int k) {
+    const double angle = 2 * std::numbers::pi * k / kSides;
+    return Vector2d(p_world + radius * Vector2d(std::cos(angle), std::sin(angle)));
+  };
+  for (int k = 0; k < kSides; ++k) world.walls.push_back({corner(k), corner(k + 1)});
+  return world;
+}
+
 Result<Outcome> cut_off(const std::string& name, std::uint64_t seed) {
   const Result<World> world = load_world(name);
   if (!world) return tl::unexpected(world.error());
@@ -33,8 +46,13 @@ Result<Outcome> cut_off(const std::string& name, std::uint64_t seed) {
   const ExploreJob job_cut = disturbed(job, plain->sim_s);
   const Result<ExploreRun> run = run_exploration(job_cut);
   if (!run) return tl::unexpected(run.error());
+  std::vector<Pose2> living;
+  for (std::size_t i = 0; i < kRobots; ++i) {
+    if (i != kDying) living.push_back(world->starts[i]);
+  }
+  const Vector2d p_world_dead = run->recording.tracks()[kDying].T_world_robot.back().translation();
   const Result<BuildingTruth> truth =
-      BuildingTruth::of(*world, std::span(world->starts).first(kRobots), job.simulation.radius);
+      BuildingTruth::of(with_body(*world, p_world_dead, job.simulation.radius), living, job.simulation.radius);
   if (!truth) return tl::unexpected(truth.error());
   const Map& map = run->map.mapper.map();
   const MapQuality quality = truth->judge(map, run->recording.tracks());
@@ -70,9 +88,10 @@ Experiment radio_experiment() {
       "The office of experiment fig6, four robots from two doors. First undisturbed, to know how long that takes; then "
       "without radio for the middle third of that time, one robot dead after half of it and one that comes after a "
       "quarter. Without radio each robot explores by itself with a map of its own; afterwards what it has seen arrives "
-      "late and in bulk. Mapped: of the floor that the living can reach. The events are mapped twice, as they were "
-      "heard and by their stamps (as `map` does with the logs): islands, how far the maps disagree about the places of "
-      "any closure of either, and how far the poses lie apart after one rigid transform an island.";
+      "late and in bulk. Mapped: of the floor that the living can reach, whose way the dead one may bar. The events "
+      "are mapped twice, as they were heard and by their stamps (as `map` does with the logs): islands, how far the "
+      "maps disagree about the places of any closure of either, and how far the poses lie apart after one rigid "
+      "transform an island.";
   e.bars = {{"mapped_percent", 99.0, std::nullopt, false},
             {"explored_count", 1.0, std::nullopt, false},
             {"dead_robots_scans_lost_count", std::nullopt, 0.0, false},

@@ -145,6 +145,17 @@ TEST(Explorer, ALowBatteryIsTakenHomeAndStaysThere) {
   EXPECT_EQ(home.end_state, EndState::stopped);
 }
 
+TEST(Explorer, ARobotThatComesNoNearerTriesSomethingElse) {
+  Hall hall = half_seen_hall();
+  hall.put({20, 3, 0});
+  const auto goes_to = [&] { return project(hall.builder.map, hall.plan().goals[0].point).x(); };
+  const double first = goes_to();
+  for (int i = 0; i < 35; ++i) (void)goes_to();
+  const double later = goes_to();
+  EXPECT_GT(std::abs(first - 20), 5);
+  EXPECT_LT((first - 20) * (later - 20), -25) << "at the other end";
+}
+
 TEST(Explorer, WhatIsLookedAtInVainIsLetBe) {
   Hall hall = half_seen_hall();
   hall.put({20, 3, 0});

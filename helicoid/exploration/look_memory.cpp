@@ -40,11 +40,16 @@ void LookMemory::note_going(double now, const Map& map, RobotId robot, const Fro
   Going* at = going(robot);
   if (at == nullptr || !is_same(map, at->middle, frontier.middle)) {
     note_not_going(robot);
-    going_.push_back({robot, frontier.middle, now, now + options_.patience + way / options_.slowest, -1, {}});
+    const double deadline = now + options_.patience + way / options_.slowest;
+    going_.push_back({robot, frontier.middle, deadline, way, now, -1, {}});
     at = &going_.back();
   }
   // Edges move a little as the map grows: the same one is followed.
   at->middle = frontier.middle;
+  if (way < at->least_way - options_.nearer || way > at->least_way + options_.detour) {
+    at->least_way = way;
+    at->nearer_since = now;
+  }
   if (way <= options_.arrived) {
     const bool advanced = at->there_since >= 0 &&
                           (project(map, at->middle_there) - project(map, frontier.middle)).norm() > options_.advanced;
@@ -57,7 +62,7 @@ void LookMemory::note_going(double now, const Map& map, RobotId robot, const Fro
     ++verdict.looks;
     verdict.gain_m2 = frontier.gain_m2;
     note_not_going(robot);
-  } else if (now > at->deadline) {
+  } else if (now > at->deadline || now - at->nearer_since > options_.stalled) {
     Verdict& verdict = verdict_on(map, frontier.middle);
     ++verdict.failures;
     verdict.rests_until = now + options_.rest;

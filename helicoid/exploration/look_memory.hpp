@@ -19,6 +19,9 @@ struct LookMemoryOptions {
   double same = 0.8;       ///< edges whose middles are this near are one, metres
   double slowest = 0.15;   ///< a robot that is slower on its way than this has met something, metres a second
   double patience = 20;    ///< that it is given besides, seconds
+  double stalled = 30;     ///< nor does one get there that has come no nearer for so long, seconds
+  double nearer = 0.5;     ///< metres that count as nearer
+  double detour = 3.0;     ///< a way that has become so much longer is another one, metres
   double rest = 45;        ///< a frontier that nobody got to is tried again after this, seconds
   int most_tries = 3;      ///< and so often at most
 };
@@ -45,8 +48,9 @@ class LookMemory {
   struct Going {
     RobotId robot;
     ManifoldPoint middle;
-    double since = 0;
     double deadline = 0;
+    double least_way = 0;        ///< metres
+    double nearer_since = 0;     ///< when it last came nearer
     double there_since = -1;     ///< below 0: not there yet
     ManifoldPoint middle_there;  ///< of the edge when the robot got there
   };
