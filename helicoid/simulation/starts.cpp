@@ -24,18 +24,25 @@ struct Ways {
   std::vector<float> length;  ///< by cell of the raster; infinity where no way leads, metres
 };
 
-Ways ways_from(const ReachableFloor& floor, std::size_t from) {
-  Ways ways{{from}, std::vector<float>(floor.room.size(), kFar)};
-  ways.length[from] = 0;
+/// All cells that hang together with one, in the order of their ways from it; their ways' lengths are put down.
+std::vector<std::size_t> spread(const ReachableFloor& floor, std::size_t from, std::vector<float>& length) {
+  std::vector<std::size_t> cells{from};
+  length[from] = 0;
   const auto width = static_cast<std::size_t>(floor.width);
-  for (std::size_t k = 0; k < ways.cells.size(); ++k) {
-    const std::size_t cell = ways.cells[k];
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const std::size_t cell = cells[k];
     for (const std::size_t next : {cell - 1, cell + 1, cell - width, cell + width}) {
-      if (next >= floor.room.size() || floor.room[next] <= 0 || ways.length[next] < kFar) continue;
-      ways.length[next] = ways.length[cell] + static_cast<float>(floor.cell);
-      ways.cells.push_back(next);
+      if (next >= floor.room.size() || floor.room[next] <= 0 || length[next] < kFar) continue;
+      length[next] = length[cell] + static_cast<float>(floor.cell);
+      cells.push_back(next);
     }
   }
+  return cells;
+}
+
+Ways ways_from(const ReachableFloor& floor, std::size_t from) {
+  Ways ways{{}, std::vector<float>(floor.room.size(), kFar)};
+  ways.cells = spread(floor, from, ways.length);
   return ways;
 }
 
@@ -54,16 +61,22 @@ Result<ReachableFloor> find_floor(const World& world, double radius) {
   return find_reachable_floor(world, std::vector<Pose2>{{at.x(), at.y(), 0}}, options);
 }
 
-/// What can be reached from the roomiest place without squeezing by a wall; the rest is no floor. The rays that an
-/// occupancy image shows free between obstacles are just wide enough here and there: who begins in one stays there.
+/// The largest part of the floor that hangs together without squeezing by a wall; the rest is no floor. The rays that
+/// an occupancy image shows free between obstacles are just wide enough here and there: who begins in one stays there,
+/// and so does who begins in a room with a speck in its door.
 ReachableFloor without_squeezes(ReachableFloor floor, double radius) {
   constexpr float kEase = 1.25F;  // of the radius: a passage of half a metre for a robot of 0.4 m
   for (float& room : floor.room) room = room < kEase * static_cast<float>(radius) ? 0 : room;
-  const auto roomiest = std::max_element(floor.room.begin(), floor.room.end());
-  const Ways ways = ways_from(floor, static_cast<std::size_t>(roomiest - floor.room.begin()));
+  std::vector<float> length(floor.room.size(), kFar);
+  std::vector<std::size_t> largest;
   for (std::size_t i = 0; i < floor.room.size(); ++i) {
-    if (ways.length[i] == kFar) floor.room[i] = 0;
+    if (floor.room[i] <= 0 || length[i] < kFar) continue;
+    std::vector<std::size_t> part = spread(floor, i, length);
+    if (part.size() > largest.size()) largest = std::move(part);
   }
+  std::vector<float> room(floor.room.size(), 0);
+  for (const std::size_t cell : largest) room[cell] = floor.room[cell];
+  floor.room = std::move(room);
   return floor;
 }
 

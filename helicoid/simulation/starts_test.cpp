@@ -110,6 +110,19 @@ TEST(Starts, AreNotInARayThatIsJustWideEnough) {
   }
 }
 
+TEST(Starts, AreNotInARoomWithASpeckInItsDoor) {
+  World world;
+  // A roomy hall of 6 m by 6 m whose door of 0.9 m has a speck in its middle; the rest is a long corridor.
+  world.walls = {{{0, 0}, {6, 0}},          {{6, 0}, {6, 2.55}},      {{6, 3.45}, {6, 6}}, {{6, 6}, {0, 6}},
+                 {{0, 6}, {0, 0}},          {{6, 2}, {40, 2}},        {{40, 2}, {40, 4}},  {{40, 4}, {6, 4}},
+                 {{6, 2.98}, {6.04, 2.98}}, {{6, 3.02}, {6.04, 3.02}}};
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const auto starts = place_starts(world, so_many(4, seed));
+    ASSERT_TRUE(starts.has_value()) << starts.error().message;
+    for (const Pose2& start : *starts) EXPECT_GT(start.x, 6);
+  }
+}
+
 TEST(Starts, AreRefusedWhereThereIsNoRoomForSoMany) {
   World world;
   const Vector2d corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
