@@ -172,7 +172,8 @@ void Exploration::collect_journal(ExploreRun& run) {
 /// What was believed at once and what the finished map contradicts is undone, as run_map does it.
 void Exploration::map_again(ExploreRun& run, const LaserModel& laser) const {
   std::vector<Decision> decisions = run.map.mapper.decisions();
-  for (std::vector<Decision> regrets = run.map.mapper.regrets(); !regrets.empty(); regrets = run.map.mapper.regrets()) {
+  const auto regret = [&run] { return run.map.mapper.regrets(run.map.passes); };
+  for (std::vector<Decision> regrets = regret(); !regrets.empty(); regrets = regret()) {
     decisions.insert(decisions.end(), regrets.begin(), regrets.end());
     run.map.mapper = map_by_stamps(decisions, laser);
     ++run.map.passes;

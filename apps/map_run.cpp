@@ -186,7 +186,7 @@ Result<MapRun> run_map(const MapJob& job) {
     if (auto done = pass_over(job, decisions, run); !done) return tl::unexpected(done.error());
     ++run.passes;
     // What was believed at once and what the finished map contradicts is undone: by a pass that never believed it.
-    std::vector<Decision> regrets = run.mapper.regrets();
+    std::vector<Decision> regrets = run.mapper.regrets(run.passes);
     if (regrets.empty() || run.interrupted) break;
     if (reads_stdin(job)) {
       run.warnings.push_back(

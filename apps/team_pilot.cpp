@@ -192,6 +192,7 @@ DriveCommand TeamPilot::steer(std::size_t robot, double now, double dt) {
   if (m->is_blocked) return step.command;
   m->is_blocked = true;
   journal_.push_back({now, JournalKind::blocked, name(m->robot), "something stands in the way"});
+  if (now < m->aside_until) return step.command;  // who is to pass backs off first
   if (step.obstruction && !is_let_pass(*m, *step.obstruction, now)) {
     m->closed.push_back({{*step.obstruction, options_.closed_radius}, now + options_.closed_for});
   }

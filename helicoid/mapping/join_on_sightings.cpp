@@ -24,6 +24,10 @@ bool is_ordered(const LoopCloser& closer, const SightingRecord& record) {
   return is_ordered(closer.ledger()[record.entry]);
 }
 
+/// Of what is open between two islands so many of the newest are thought of together. Robots that stare at one another
+/// for minutes say the same again and again, and each sighting is held against each.
+constexpr std::size_t kMostOptions = 48;
+
 /// What is open between two islands, as far as the scans have not contradicted it; what an operator accepted in any
 /// case.
 std::vector<SightingOption> options_between(const Map& map, const LoopCloser& closer, const SightingLog& log,
@@ -43,6 +47,12 @@ std::vector<SightingOption> options_between(const Map& map, const LoopCloser& cl
       options.push_back({i, k, {record.observer_at.pose, c.at.pose, record.sighting}, record.candidates.size() == 1});
     }
   }
+  std::size_t excess = options.size() - std::min(options.size(), kMostOptions);
+  std::erase_if(options, [&](const SightingOption& o) {
+    const bool goes = excess > 0 && !is_ordered(closer, log.placed()[o.record]);
+    excess -= goes ? 1 : 0;
+    return goes;
+  });
   return options;
 }
 

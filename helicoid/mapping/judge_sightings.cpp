@@ -154,11 +154,10 @@ Objections object_to(const Map& map, const InformationGraph& graph, ExactPoses& 
 }  // namespace
 
 std::vector<Decision> find_regrets(const Map& map, const InformationGraph& graph, const LoopCloser& closer,
-                                   const SightingLog& log) {
+                                   const SightingLog& log, std::size_t most) {
   ExactPoses exact(map);
   std::vector<Decision> regrets;
-  std::optional<Decision> worst;
-  double worst_chi2 = 0;
+  std::vector<std::pair<double, Decision>> misfits;  // with their chi^2
   for (const SightingRecord& record : log.placed()) {
     const Hypothesis& h = closer.ledger()[record.entry];
     if (h.state != HypothesisState::accepted || h.decided_by != DecidedBy::sighting) continue;
@@ -175,14 +174,15 @@ std::vector<Decision> find_regrets(const Map& map, const InformationGraph& graph
     if (!objections.by_scans.empty() || !objections.by_sightings.empty()) {
       regret.reason = objections.by_scans.empty() ? objections.by_sightings : objections.by_scans;
       regrets.push_back(std::move(regret));
-    } else if (objections.chi2 > worst_chi2) {
-      worst_chi2 = objections.chi2;
-      regret.reason = fmt::format("what was mapped later leads elsewhere: chi^2 {:.1f}", worst_chi2);
-      worst = std::move(regret);
+    } else if (objections.chi2 > 0) {
+      regret.reason = fmt::format("what was mapped later leads elsewhere: chi^2 {:.1f}", objections.chi2);
+      misfits.emplace_back(objections.chi2, std::move(regret));
     }
   }
   // One that the scans or many sightings contradict may be why another does not fit.
-  if (regrets.empty() && worst) regrets.push_back(std::move(*worst));
+  if (!regrets.empty()) return regrets;
+  std::stable_sort(misfits.begin(), misfits.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
+  for (std::size_t i = 0; i < std::min(most, misfits.size()); ++i) regrets.push_back(std::move(misfits[i].second));
   return regrets;
 }
 

@@ -9,8 +9,9 @@ namespace helicoid {
 /// rejected by how it fits the exact covariance.
 void judge_sightings(const Map& map, LoopCloser& closer, const SightingLog& log);
 
-/// The accepted sightings that the finished map contradicts, as decisions for another pass over the same events.
+/// The accepted sightings that the finished map contradicts, as decisions for another pass over the same events. Of
+/// those that merely do not fit it, the worst `most`.
 [[nodiscard]] std::vector<Decision> find_regrets(const Map& map, const InformationGraph& graph,
-                                                 const LoopCloser& closer, const SightingLog& log);
+                                                 const LoopCloser& closer, const SightingLog& log, std::size_t most);
 
 }  // namespace helicoid

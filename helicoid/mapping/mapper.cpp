@@ -274,8 +274,10 @@ void Mapper::finish() {
   s.times.fit_s += thread_seconds() - began;
 }
 
-std::vector<Decision> Mapper::regrets() const {
-  return find_regrets(state_->map, state_->graph, state_->closer, state_->sightings);
+std::vector<Decision> Mapper::regrets(std::size_t passes) const {
+  constexpr std::size_t kOneByOne = 4;  // passes
+  const std::size_t most = std::size_t{1} << std::min<std::size_t>(passes > kOneByOne ? passes - kOneByOne : 0, 30);
+  return find_regrets(state_->map, state_->graph, state_->closer, state_->sightings, most);
 }
 
 const std::vector<Decision>& Mapper::decisions() const {

@@ -78,8 +78,9 @@ class Mapper {
   void finish();
 
   /// After finish(): what was believed at once and what the finished map contradicts. The same events under these
-  /// decisions besides make a map without it.
-  [[nodiscard]] std::vector<Decision> regrets() const;
+  /// decisions besides make a map without it. `passes` over the events have been made: what merely does not fit is
+  /// undone one by one at first, for one may be why another does not; then ever more at once, so that it ends.
+  [[nodiscard]] std::vector<Decision> regrets(std::size_t passes = 1) const;
 
   /// Those that were given from the start, and during the run.
   [[nodiscard]] const std::vector<Decision>& decisions() const;
