@@ -12,14 +12,6 @@ namespace helicoid {
 
 namespace {
 
-bool is_closure(const Hypothesis& h) {
-  return h.state == HypothesisState::accepted && h.source == HypothesisSource::lookalike;
-}
-
-std::size_t closures_of(const Mapper& mapper) {
-  return static_cast<std::size_t>(std::count_if(mapper.ledger().begin(), mapper.ledger().end(), is_closure));
-}
-
 /// Where the other map has the scan that a patch of this one was made from; nothing if it does not have it.
 std::optional<ManifoldPose> elsewhere(const Patch& patch, const Map& other) {
   const Trajectory& trajectory = other.robot(patch.robot).trajectory;
@@ -33,7 +25,7 @@ double closures_apart(const Mapper& mapper, const Map& other) {
   double most = 0;
   const Map& map = mapper.map();
   for (const Hypothesis& h : mapper.ledger()) {
-    if (!is_closure(h)) continue;
+    if (!h.is_closure()) continue;
     const std::optional<ManifoldPose> a = elsewhere(map.patch(h.a), other);
     const std::optional<ManifoldPose> b = elsewhere(map.patch(h.b), other);
     if (!a || !b || other.island_of(a->patch) != other.island_of(b->patch)) {
@@ -103,8 +95,8 @@ Pose2 best_transform(const PosePairs& pairs) {
 OrderEffect compare_orders(const Mapper& heard, const Mapper& stamped) {
   OrderEffect effect;
   effect.same_islands = share_alike(islands_of_robots(heard.map()), islands_of_robots(stamped.map()));
-  effect.closures_heard = closures_of(heard);
-  effect.closures_stamped = closures_of(stamped);
+  effect.closures_heard = count_closures(heard.ledger());
+  effect.closures_stamped = count_closures(stamped.ledger());
   effect.closures_apart_m = std::max(closures_apart(heard, stamped.map()), closures_apart(stamped, heard.map()));
   double count = 0;
   for (const auto& [island, pairs] : pairs_of(heard.map(), stamped.map())) {

@@ -239,10 +239,7 @@ void TeamPilot::note_islands(double now) {
 }
 
 void TeamPilot::note_closures(double now) {
-  const Ledger& ledger = mapper_.ledger();
-  const auto closures = static_cast<std::size_t>(std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) {
-    return h.state == HypothesisState::accepted && h.source == HypothesisSource::lookalike;
-  }));
+  const std::size_t closures = count_closures(mapper_.ledger());
   if (closures > closures_) {
     journal_.push_back({now, JournalKind::closure, "", fmt::format("{} places are known again", closures - closures_)});
   }

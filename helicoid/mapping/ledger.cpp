@@ -1,5 +1,7 @@
 #include "helicoid/mapping/ledger.hpp"
 
+#include <algorithm>
+
 namespace helicoid {
 
 const char* name_of(HypothesisState state) {
@@ -29,6 +31,11 @@ const char* name_of(DecidedBy who) {
     case DecidedBy::operator_: return "operator";
   }
   return "unknown";
+}
+
+std::size_t count_closures(const Ledger& ledger) {
+  return static_cast<std::size_t>(
+      std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) { return h.is_closure(); }));
 }
 
 }  // namespace helicoid

@@ -49,6 +49,10 @@ struct Hypothesis {
   std::optional<SeenRobot> seen;  ///< of a sighting
   std::string reason;             ///< of the state, in words
 
+  /// Two places of the map that look alike are taken for one.
+  [[nodiscard]] bool is_closure() const {
+    return state == HypothesisState::accepted && source == HypothesisSource::lookalike;
+  }
   /// Nobody has said anything about it yet.
   [[nodiscard]] bool is_undecided() const { return state == HypothesisState::open && !is_withheld(); }
   /// An operator has said that it is not to be acted on.
@@ -58,5 +62,7 @@ struct Hypothesis {
 };
 
 using Ledger = std::vector<Hypothesis>;
+
+[[nodiscard]] std::size_t count_closures(const Ledger& ledger);
 
 }  // namespace helicoid

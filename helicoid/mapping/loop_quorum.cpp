@@ -28,9 +28,7 @@ std::vector<std::size_t> LoopCloser::true_together_with(std::size_t entry) const
     return std::find(earlier.begin(), earlier.end(), std::min(i, k)) != earlier.end();
   };
   // A sighting that was believed at once may be a lie: it is held to account, and does not bind others.
-  const auto is_believed = [&](std::size_t i) {
-    return ledger_[i].state == HypothesisState::accepted && ledger_[i].source == HypothesisSource::lookalike;
-  };
+  const auto is_believed = [&](std::size_t i) { return ledger_[i].is_closure(); };
   std::vector<std::size_t> ranked = ledger_[entry].supports;
   std::erase_if(ranked, [&](std::size_t i) { return !is_sound(i); });
   std::stable_sort(ranked.begin(), ranked.end(), [&](std::size_t i, std::size_t k) {
