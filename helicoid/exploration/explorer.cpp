@@ -196,9 +196,8 @@ void Explorer::arrange_meetings(Situation& s, TeamPlan& plan) {
     const std::optional<Pairing> pair = choose_pair(*posts, doubt, s.travel, s.is_free);
     if (!pair) continue;
     const double likelihood = likelihood_of(s.map, doubt, s.doubts, desk_, meetings_);
-    const TeamAtWork team{s.frontiers, s.way, s.is_free};
-    if (!is_worth_meeting(s.map, doubt, likelihood, *pair, team, options_.assignment, floor, options_.meeting_worth))
-      continue;
+    const TeamAtWork team{s.frontiers, s.way};
+    if (!is_worth_meeting(s.map, doubt, likelihood, *pair, team, floor, options_.meeting_worth)) continue;
     desk_.begin(s.now, s.map, doubt, *posts, *pair, s.members);
     keep_meetings(s, plan);
   }

@@ -102,12 +102,6 @@ double again_m2(const Map& map, const Doubt& doubt, std::span<const Frontier> fr
          again_m2(map, b, a, T_plane_a_plane_b, frontiers, floor);
 }
 
-double worth_of(const TeamAtWork& team, std::span<const std::uint8_t> is_free, const AssignmentOptions& options) {
-  const Eigen::MatrixXd way = ways_of_free(team.way, is_free);
-  const std::vector<std::optional<std::size_t>> nobody(is_free.size());
-  return team_value(team.frontiers, way, nobody, assign_frontiers(team.frontiers, way, nobody, options), options);
-}
-
 bool has_work(const TeamAtWork& team, std::size_t member) {
   return team.way.row(static_cast<Eigen::Index>(member)).array().isFinite().any();
 }
@@ -131,19 +125,14 @@ double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> 
 }
 
 bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,
-                      const TeamAtWork& team, const AssignmentOptions& assignment, KnownFloor& floor,
-                      const MeetingWorthOptions& options) {
+                      const TeamAtWork& team, KnownFloor& floor, const MeetingWorthOptions& options) {
   if (team.frontiers.empty()) return true;
-  std::vector<std::uint8_t> others(team.is_free.begin(), team.is_free.end());
-  others[pair.watcher] = others[pair.shown] = 0;
   const double saved = again_m2(map, doubt, team.frontiers, options.doubt_reach, floor);
   // Whoever has the shorter way waits for the other; who has nothing to look at loses nothing by it.
   int busy = 0;
   for (const std::size_t r : {pair.watcher, pair.shown}) busy += has_work(team, r) ? 1 : 0;
   const double cost = busy * (pair.longest + options.standing_m);
-  // A long way to a frontier is put off by a meeting and not saved.
-  const double missed = std::max(0.0, worth_of(team, team.is_free, assignment) - worth_of(team, others, assignment));
-  return likelihood * options.metres_per_m2 * saved >= cost + missed;
+  return likelihood * options.metres_per_m2 * saved >= cost;
 }
 
 }  // namespace helicoid

@@ -1,5 +1,5 @@
 // Whether a rendezvous is worth its time (paper VI): what it would save, by how likely its places are one, beside what
-// its two robots would see meanwhile.
+// its two robots could drive meanwhile.
 #pragma once
 
 #include <span>
@@ -7,7 +7,6 @@
 #include "helicoid/exploration/frontiers.hpp"
 #include "helicoid/exploration/known_floor.hpp"
 #include "helicoid/exploration/rendezvous.hpp"
-#include "helicoid/exploration/team_assignment.hpp"
 
 namespace helicoid {
 
@@ -30,18 +29,16 @@ struct MeetingRecord {
 [[nodiscard]] double likelihood_of(const Map& map, const Doubt& doubt, std::span<const Doubt> open,
                                    const RendezvousDesk& desk, const MeetingRecord& record);
 
-/// The team as it could work without the meeting. `way` by member and frontier, metres.
+/// What the team has to look at. `way` by member and frontier, metres.
 struct TeamAtWork {
   std::span<const Frontier> frontiers;
   const Eigen::MatrixXd& way;
-  std::span<const std::uint8_t> is_free;
 };
 
 /// By expected gain. If the places are one, what is known beyond one of them need not be looked at again from the
 /// other's side, and what is open on both only once. What neither side is at is no reason to meet: whoever gets there
 /// first sees something new. Where nothing is left to look at, every meeting is worth its time.
 [[nodiscard]] bool is_worth_meeting(const Map& map, const Doubt& doubt, double likelihood, const Pairing& pair,
-                                    const TeamAtWork& team, const AssignmentOptions& assignment, KnownFloor& floor,
-                                    const MeetingWorthOptions& options = {});
+                                    const TeamAtWork& team, KnownFloor& floor, const MeetingWorthOptions& options = {});
 
 }  // namespace helicoid

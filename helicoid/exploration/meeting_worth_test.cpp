@@ -56,7 +56,6 @@ struct AtWork {
   LookAlikes alike{1};
   std::vector<Frontier> frontiers;
   Eigen::MatrixXd way;
-  std::vector<std::uint8_t> is_free = {1, 1};
 
   explicit AtWork(double gain_m2) : frontiers(gain_m2 > 0 ? 2 : 0), way(2, std::ssize(frontiers)) {
     way.setConstant(1);
@@ -70,8 +69,8 @@ struct AtWork {
   }
   [[nodiscard]] bool is_worth(double likelihood, double longest) const {
     KnownFloor floor(alike.builder.map);
-    return is_worth_meeting(alike.builder.map, alike.doubts.front(), likelihood, {0, 1, longest},
-                            {frontiers, way, is_free}, {}, floor);
+    return is_worth_meeting(alike.builder.map, alike.doubts.front(), likelihood, {0, 1, longest}, {frontiers, way},
+                            floor);
   }
 };
 
@@ -85,7 +84,6 @@ struct RoomAndHall {
   Doubt doubt;
   std::vector<Frontier> frontiers{1};
   Eigen::MatrixXd way = Eigen::MatrixXd::Constant(2, 1, std::numeric_limits<double>::infinity());
-  std::vector<std::uint8_t> is_free = {1, 1};
 
   /// The first has yet to look at one square metre about this place.
   explicit RoomAndHall(const Vector2d& open_plane) {
@@ -102,7 +100,7 @@ struct RoomAndHall {
   }
   [[nodiscard]] bool is_worth(double longest) const {
     KnownFloor floor(builder.map);
-    return is_worth_meeting(builder.map, doubt, 1.0, {0, 1, longest}, {frontiers, way, is_free}, {}, floor);
+    return is_worth_meeting(builder.map, doubt, 1.0, {0, 1, longest}, {frontiers, way}, floor);
   }
 };
 

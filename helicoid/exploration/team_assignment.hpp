@@ -1,5 +1,6 @@
-// Which robot looks at which frontier: utility minus travel over the whole team (Burgard et al. 2005; Stachniss 2009),
-// the best choice for all together and not first come.
+// Which robot looks at which frontier: as much floor for a metre of way as the whole team can get, the best choice for
+// all together and not first come (after Burgard et al. 2005 and Stachniss 2009, whose utility is less travel and not
+// by it).
 #pragma once
 
 #include <optional>
@@ -11,9 +12,9 @@
 namespace helicoid {
 
 struct AssignmentOptions {
-  double metres_per_m2 = 0.5;  ///< how far a robot may go for a square metre more
-  double most_gain = 12;       ///< what is beyond counts no more: what a look shows at most is not worth any way, m2
-  double hysteresis = 1.5;     ///< metres that another goal must be better than the one a robot is going to
+  double look_m = 1.0;           ///< what a look costs besides its way, braking and turning, as metres driven
+  double return_saved_m2 = 3.0;  ///< what a look counts beyond what it shows: what is left must be come back for
+  double hysteresis = 1.0;       ///< metres that the way to where a robot is going already counts less
 };
 
 /// By robot the frontier that it goes to. `way(r, f)` in metres, infinity where robot r cannot go to f; `going_to`: by
@@ -28,9 +29,11 @@ struct AssignmentOptions {
 /// Each robot's nearest frontier, whoever else goes there: what a team does without coordination (Yamauchi 1998).
 [[nodiscard]] std::vector<std::optional<std::size_t>> nearest_frontiers(const Eigen::MatrixXd& way);
 
-/// What an assignment is worth, metres: the floor that will be seen, less the ways.
-[[nodiscard]] double team_value(std::span<const Frontier> frontiers, const Eigen::MatrixXd& way,
-                                std::span<const std::optional<std::size_t>> going_to,
-                                std::span<const std::optional<std::size_t>> chosen, const AssignmentOptions& options);
+/// What an assignment gets, summed over robots, m2 a metre: the floor that each will see by the way to it. What two
+/// will both see is each one's half.
+[[nodiscard]] double team_rate(std::span<const Frontier> frontiers, const Eigen::MatrixXd& way,
+                               std::span<const std::optional<std::size_t>> going_to,
+                               std::span<const std::optional<std::size_t>> chosen,
+                               const AssignmentOptions& options = {});
 
 }  // namespace helicoid

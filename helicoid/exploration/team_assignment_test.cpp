@@ -61,7 +61,7 @@ TEST(TeamAssignment, IsNeverWorseThanTheBestIgnoringWhatIsShared) {
     for (double& w : way.reshaped()) w = random.uniform(0, 30);
     const AssignmentOptions options;
     const Choice chosen = assign_frontiers(frontiers, way, Choice(3), options);
-    const double value = team_value(frontiers, way, Choice(3), chosen, options);
+    const double rate = team_rate(frontiers, way, Choice(3), chosen, options);
     // No robot alone, and no two by changing places, can make it better.
     for (std::size_t r = 0; r < 3; ++r) {
       for (std::size_t f = 0; f < 6; ++f) {
@@ -69,7 +69,7 @@ TEST(TeamAssignment, IsNeverWorseThanTheBestIgnoringWhatIsShared) {
         const auto holder = std::find(other.begin(), other.end(), std::optional(f));
         if (holder != other.end()) *holder = other[r];
         other[r] = f;
-        EXPECT_LE(team_value(frontiers, way, Choice(3), other, options), value + 1e-6);
+        EXPECT_LE(team_rate(frontiers, way, Choice(3), other, options), rate + 1e-9);
       }
     }
   }
@@ -82,6 +82,31 @@ TEST(TeamAssignment, ARobotGoesOnToItsFrontierUnlessAnotherIsClearlyBetter) {
   EXPECT_THAT(assign_frontiers(frontiers, way, Choice{0U}), ElementsAre(Optional(0U)));
   way << 6, 4;
   EXPECT_THAT(assign_frontiers(frontiers, way, Choice{0U}), ElementsAre(Optional(1U)));
+}
+
+TEST(TeamAssignment, WhoHasOnlyScrapsNearByHelpsWhereARoomIsLeft) {
+  const std::vector<Frontier> frontiers = {frontier(0.3, 0), frontier(20, 1), frontier(20, 2)};
+  Eigen::MatrixXd way(2, 3);
+  way << 4, 20, 20,  //
+      24, 2, 2;
+  const Choice chosen = assign_frontiers(frontiers, way, Choice(2));
+  ASSERT_TRUE(chosen[0] && chosen[1]);
+  EXPECT_NE(*chosen[0], 0U);
+  EXPECT_NE(*chosen[1], 0U);
+}
+
+TEST(TeamAssignment, AScrapOnTheWayIsNotLeftForLater) {
+  const std::vector<Frontier> frontiers = {frontier(0.3, 0), frontier(20, 1)};
+  Eigen::MatrixXd way(1, 2);
+  way << 0.5, 12;
+  EXPECT_THAT(assign_frontiers(frontiers, way, Choice(1)), ElementsAre(Optional(0U)));
+}
+
+TEST(TeamAssignment, WhatShowsMoreByTheMetreIsLookedAtFirst) {
+  const std::vector<Frontier> frontiers = {frontier(6, 0), frontier(9, 1)};
+  Eigen::MatrixXd way(1, 2);
+  way << 1, 4;  // the farther one shows more, but by the metre less
+  EXPECT_THAT(assign_frontiers(frontiers, way, Choice(1)), ElementsAre(Optional(0U)));
 }
 
 TEST(TeamAssignment, WhereThereIsNoWayNobodyIsSent) {
