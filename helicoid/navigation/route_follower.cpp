@@ -155,7 +155,8 @@ DriveCommand RouteFollower::drive_to(const Vector2d& target, double left) {
   // Whoever comes towards the robot brakes as well: each has half the way.
   speed = std::min(speed, std::sqrt(options_.braking * std::max(0.0, free - 0.08)));
   speed = std::min(speed, 0.05 + std::sqrt(options_.braking * left));
-  speed = std::min(speed, 0.2 + 2 * std::max(room, 0.0));
+  // Beside the way as well: two that come together must both have stopped before they touch.
+  speed = std::min(speed, 0.1 + 2.5 * std::max(room, 0.0));
   if (std::abs(curvature) > 1e-6) speed = std::min(speed, options_.top_turn_rate / std::abs(curvature));
   if (speed < 0.03) return turn_to(bearing);
   return {speed, speed * curvature};

@@ -216,6 +216,22 @@ TEST(RouteFollower, PassesAnotherInACorridor) {
   }
 }
 
+TEST(RouteFollower, DoesNotTouchAnotherWhoseWayComesTogetherWithItsOwn) {
+  const std::vector<Wall> walls = synthetic::rectangle(0, 0, 8, 6);
+  Random random(4);
+  for (int round = 0; round < 40; ++round) {
+    Floor floor{walls, Builder(), {}};
+    for (const Pose2& pose : {Pose2{1, 1, 0.7}, {7, 5, -2.4}, {4, 3, 0}}) floor.builder.add(walls, pose);
+    // Side by side, each bound for where the other's side leads to.
+    const double apart = random.uniform(0.6, 2.0);
+    const double y = random.uniform(2.2, 3.8);
+    floor.send({1, y - apart / 2, random.uniform(0, 0.8)}, {random.uniform(2, 7), y + random.uniform(0, 1.5)}, 0);
+    floor.send({1, y + apart / 2, -random.uniform(0, 0.8)}, {random.uniform(2, 7), y - random.uniform(0, 1.5)}, 1);
+    floor.run(60);
+    for (const Driver& driver : floor.drivers) EXPECT_GE(driver.closest, 0.22) << round;
+  }
+}
+
 TEST(RouteFollower, GivesWayAtADoorByRank) {
   for (const int first : {0, 1}) {
     Floor floor = two_rooms();
