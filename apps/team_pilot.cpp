@@ -21,6 +21,7 @@ struct TeamPilot::Member {
   bool is_blocked = false;
   bool has_arrived = false;
   double way_found_at = -HUGE_VAL;
+  double way_left = 0;             ///< of the way, when last steered, metres
   double aside_until = -HUGE_VAL;  ///< it makes room for another one, seconds
   struct Closed {
     ClosedFloor floor;
@@ -158,17 +159,28 @@ void TeamPilot::direct(Member& m, const Goal& goal, double now) {
     m.follower.stop();
     m.has_way = false;
   } else if (!same || !m.has_way || now - m.way_found_at >= options_.route_period) {
-    find_way(m, now);
+    find_way(m, now, same);
   }
 }
 
-void TeamPilot::find_way(Member& m, double now) {
+bool TeamPilot::is_open(const ManifoldRoute& route) const {
+  return std::all_of(route.points.begin(), route.points.end(),
+                     [&](const ManifoldPoint& p) { return floor_->clearance(p) >= options_.navigation.robot_radius; });
+}
+
+void TeamPilot::find_way(Member& m, double now, bool goes_on) {
   std::erase_if(m.closed, [&](const Member::Closed& c) { return c.until < now; });
   std::vector<ClosedFloor> closed;
   for (const Member::Closed& c : m.closed) closed.push_back(c.floor);
   ManifoldRoute route = plan_route(*floor_, m.pose, m.goal.point, closed);
   if (route.status != RouteStatus::found && !closed.empty()) route = plan_route(*floor_, m.pose, m.goal.point);
+  // Where the map winds up a sheet under a robot that drives on another, a new way would lead back to where they part.
+  if (goes_on && m.has_way && route.length > m.way_left + options_.leads_back && is_open(m.follower.route())) {
+    m.way_found_at = now;
+    return;
+  }
   m.has_way = route.status == RouteStatus::found;
+  m.way_left = route.length;
   m.way_found_at = now;
   if (m.has_way) {
     std::optional<ManifoldHeading> heading;
@@ -185,6 +197,7 @@ DriveCommand TeamPilot::steer(std::size_t robot, double now, double dt) {
   if (m == nullptr || !m->has_way) return {};
   const FollowStep step = m->follower.step(map(), m->pose, m->scan, laser_, dt);
   m->has_arrived = step.status == FollowStatus::arrived;
+  m->way_left = step.left;
   if (step.status != FollowStatus::blocked) {
     m->is_blocked = false;
     return step.command;
@@ -196,7 +209,7 @@ DriveCommand TeamPilot::steer(std::size_t robot, double now, double dt) {
   if (step.obstruction && !is_let_pass(*m, *step.obstruction, now)) {
     m->closed.push_back({{*step.obstruction, options_.closed_radius}, now + options_.closed_for});
   }
-  find_way(*m, now);
+  find_way(*m, now, !step.obstruction);
   return step.command;
 }
 
