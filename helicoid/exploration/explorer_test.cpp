@@ -153,6 +153,7 @@ TEST(Explorer, ARobotThatComesNoNearerTriesSomethingElse) {
   const auto goes_to = [&] { return project(hall.builder.map, hall.plan().goals[0].point).x(); };
   const double first = goes_to();
   std::vector<double> later;
+  later.reserve(100);
   for (int i = 0; i < 35; ++i) later.push_back(goes_to());
   EXPECT_THAT(later, testing::Contains(testing::Not(testing::DoubleNear(first, 0.5))));
   for (int i = 0; i < 65; ++i) later.push_back(goes_to());
