@@ -175,7 +175,8 @@ void TeamPilot::find_way(Member& m, double now, bool goes_on) {
   ManifoldRoute route = plan_route(*floor_, m.pose, m.goal.point, closed);
   if (route.status != RouteStatus::found && !closed.empty()) route = plan_route(*floor_, m.pose, m.goal.point);
   // Where the map winds up a sheet under a robot that drives on another, a new way would lead back to where they part.
-  if (goes_on && m.has_way && route.length > m.way_left + options_.leads_back && is_open(m.follower.route())) {
+  const bool drives = goes_on && m.has_way && !m.has_arrived;
+  if (drives && route.length > m.way_left + options_.leads_back && is_open(m.follower.route())) {
     m.way_found_at = now;
     return;
   }

@@ -148,7 +148,9 @@ Experiment team_gain_experiment() {
   e.cases = [worlds](const ExperimentOptions& options) {
     std::vector<ExperimentCase> cases;
     if (options.quick) {
-      cases.push_back({"4 robots", true, "", [](std::uint64_t seed) { return compare({"room", "hall"}, 4, seed); }});
+      cases.push_back({"4 robots", true, "", [](std::uint64_t seed) {
+                         return compare({"corridor", "hall", "wings"}, 4, seed);
+                       }});
       return cases;
     }
     for (const std::size_t robots : {1U, 2U, 4U, 8U}) {
