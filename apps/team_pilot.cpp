@@ -176,13 +176,10 @@ void TeamPilot::find_way(Member& m, double now, bool goes_on) {
   if (route.status != RouteStatus::found && !closed.empty()) route = plan_route(*floor_, m.pose, m.goal.point);
   // Where the map winds up a sheet under a robot that drives on another, a new way would lead back to where they part.
   const bool drives = goes_on && m.has_way && !m.has_arrived;
-  if (drives && route.length > m.way_left + options_.leads_back && is_open(m.follower.route())) {
-    m.way_found_at = now;
-    return;
-  }
+  m.way_found_at = now;
+  if (drives && route.length > m.way_left + options_.leads_back && is_open(m.follower.route())) return;
   m.has_way = route.status == RouteStatus::found;
   m.way_left = route.length;
-  m.way_found_at = now;
   if (m.has_way) {
     std::optional<ManifoldHeading> heading;
     if (m.goal.heading_patch) heading = ManifoldHeading{m.goal.point.patch, *m.goal.heading_patch};

@@ -29,8 +29,8 @@ struct AssignmentOptions {
 /// Each robot's nearest frontier, whoever else goes there: what a team does without coordination (Yamauchi 1998).
 [[nodiscard]] std::vector<std::optional<std::size_t>> nearest_frontiers(const Eigen::MatrixXd& way);
 
-/// What an assignment gets, summed over robots, m2 a metre: the floor that each will see by the way to it. What two
-/// will both see is each one's half.
+/// What an assignment gets, summed over robots, m2 a metre: the floor that each will see and the return that it saves,
+/// by the way there. Of what two will both see half counts for each.
 [[nodiscard]] double team_rate(std::span<const Frontier> frontiers, const Eigen::MatrixXd& way,
                                std::span<const std::optional<std::size_t>> going_to,
                                std::span<const std::optional<std::size_t>> chosen,
