@@ -163,21 +163,15 @@ void TeamPilot::direct(Member& m, const Goal& goal, double now) {
   }
 }
 
-bool TeamPilot::is_open(const ManifoldRoute& route) const {
-  return std::all_of(route.points.begin(), route.points.end(),
-                     [&](const ManifoldPoint& p) { return floor_->clearance(p) >= options_.navigation.robot_radius; });
-}
-
 void TeamPilot::find_way(Member& m, double now, bool goes_on) {
   std::erase_if(m.closed, [&](const Member::Closed& c) { return c.until < now; });
   std::vector<ClosedFloor> closed;
   for (const Member::Closed& c : m.closed) closed.push_back(c.floor);
   ManifoldRoute route = plan_route(*floor_, m.pose, m.goal.point, closed);
   if (route.status != RouteStatus::found && !closed.empty()) route = plan_route(*floor_, m.pose, m.goal.point);
-  // Where the map winds up a sheet under a robot that drives on another, a new way would lead back to where they part.
-  const bool drives = goes_on && m.has_way && !m.has_arrived;
   m.way_found_at = now;
-  if (drives && route.length > m.way_left + options_.leads_back && is_open(m.follower.route())) return;
+  const bool drives = goes_on && m.has_way && !m.has_arrived;
+  if (drives && only_leads_back(*floor_, m.follower.route(), m.way_left, route)) return;
   m.has_way = route.status == RouteStatus::found;
   m.way_left = route.length;
   if (m.has_way) {

@@ -13,6 +13,7 @@
 #include "helicoid/mapping/mapper.hpp"
 #include "helicoid/navigation/distance_field.hpp"
 #include "helicoid/navigation/driven_neighbours.hpp"
+#include "helicoid/navigation/kept_way.hpp"
 #include "helicoid/navigation/plan_route.hpp"
 #include "helicoid/navigation/route_follower.hpp"
 #include "helicoid/sensor/drive_command.hpp"
@@ -25,7 +26,6 @@ struct PilotOptions {
   FollowerOptions follower;
   ExplorerOptions explorer;
   double route_period = 4;     ///< a route is planned anew this often: more is known by then, seconds
-  double leads_back = 1.5;     ///< a new route so much longer than what is left of the old one is not taken, metres
   double closed_for = 15;      ///< where a robot was blocked no other way leads through for so long, seconds
   double closed_radius = 0.4;  ///< metres
   double in_the_way = 0.8;     ///< a robot this near to where another one is blocked is what blocks it, metres
@@ -85,8 +85,6 @@ class TeamPilot {
   void compare_islands(double now);
   void settle(double now, const Settled& settled);
   void direct(Member& member, const Goal& goal, double now);
-  /// As far as is known by now.
-  [[nodiscard]] bool is_open(const ManifoldRoute& route) const;
   /// A robot that `goes_on` to where it was going keeps its way unless the new one is better.
   void find_way(Member& member, double now, bool goes_on);
   [[nodiscard]] bool is_let_pass(const Member& blocked, const ManifoldPoint& obstruction, double now);

@@ -6,24 +6,15 @@
 
 #include "helicoid/geometry/ray_casting.hpp"
 #include "helicoid/navigation/distance_field.hpp"
-#include "tests/synthetic_room.hpp"
+#include "tests/synthetic_ring.hpp"
 
 namespace helicoid {
 namespace {
 
 using synthetic::Builder;
+using synthetic::neighbours_of;
+using synthetic::Ring;
 using synthetic::Wall;
-
-/// All patches vouch for one another, or those do that were made less than `apart` after one another.
-Neighbours neighbours_of(const Map& map, std::size_t apart = 1000) {
-  Neighbours neighbours(map.patch_count());
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    for (std::size_t j = 0; j < neighbours.size(); ++j) {
-      if (i != j && std::max(i, j) - std::min(i, j) < apart) neighbours[i].push_back(make_id<PatchId>(j));
-    }
-  }
-  return neighbours;
-}
 
 RayCaster casting(const std::vector<Wall>& walls) {
   std::vector<Segment> segments;
@@ -203,27 +194,6 @@ TEST(PlanRoute, KeepsItsClearanceInClutteredRooms) {
   }
   EXPECT_GT(found, 400);
 }
-
-/// A corridor of 2 m round a block, driven round a little more than once.
-struct Ring {
-  std::vector<Wall> walls = synthetic::rectangle(0, 0, 20, 14);
-  Builder builder;
-  Ring() {
-    synthetic::append(walls, synthetic::rectangle(2, 2, 18, 12));
-    const std::vector<Vector2d> corners{{1, 1}, {19, 1}, {19, 13}, {1, 13}};
-    for (double along = 0; along < 66; along += 1.5) {
-      double rest = std::fmod(along, 60);
-      std::size_t k = 0;
-      for (; rest > (corners[(k + 1) % 4] - corners[k]).norm(); k = (k + 1) % 4) {
-        rest -= (corners[(k + 1) % 4] - corners[k]).norm();
-      }
-      const Vector2d way = (corners[(k + 1) % 4] - corners[k]).normalized();
-      const Vector2d p = corners[k] + rest * way;
-      builder.add(walls, {p.x(), p.y(), wrap_angle(std::atan2(way.y(), way.x()))});
-    }
-  }
-  [[nodiscard]] ManifoldPose last() const { return {make_id<PatchId>(builder.map.patch_count() - 1), {}}; }
-};
 
 TEST(PlanRoute, GoesTheLongWayRoundWhereSheetsLieOverOneAnother) {
   const Ring ring;
