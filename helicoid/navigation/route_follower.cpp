@@ -15,6 +15,8 @@ constexpr double kShortest = 0.12;  // look-ahead, metres
 constexpr double kBerth = 0.04;          // metres
 constexpr double kShortestBerth = 0.30;  // look-ahead with a berth, metres
 constexpr double kLookingStep = 0.08;    // between look-aheads that are tried, metres
+constexpr double kShift = 0.02;          // between places beside a target that are tried, metres
+constexpr double kMostShift = 0.08;      // metres
 constexpr double kBesideAhead = 0.7;     // metres
 constexpr double kMostAside = 0.8;       // metres
 constexpr double kTurnGain = 2.5;        // radians a second for a radian
@@ -131,10 +133,31 @@ std::optional<Vector2d> RouteFollower::farthest_free(std::span<const Vector2d> w
   return std::nullopt;
 }
 
+/// Beside a target, where it is widest: what is nearer on one side than on the other may be nearer still.
+Vector2d RouteFollower::widest_beside(const Vector2d& target) const {
+  const Vector2d left = Vector2d(-target.y(), target.x()).normalized();
+  const double enough = radius() + kBerth;
+  const auto room_towards = [&](const Vector2d& p) {
+    return std::min({enough, obstacles_.clearance(0.5 * p, enough), obstacles_.clearance(p, enough)});
+  };
+  Vector2d widest = target;
+  double room = room_towards(target);
+  for (double shift = kShift; shift <= kMostShift && room < enough; shift += kShift) {
+    for (const double side : {-shift, shift}) {
+      const Vector2d p = target + side * left;
+      const double wide = room_towards(p);
+      if (wide <= room || obstacles_.free_way(p, radius()) < p.norm() - 1e-9) continue;
+      widest = p;
+      room = wide;
+    }
+  }
+  return widest;
+}
+
 /// Pure pursuit (Coulter 1992).
 DriveCommand RouteFollower::pursue(std::span<const Vector2d> way, double left) {
   if (const auto target = farthest_free(way, radius() + kBerth, kShortestBerth)) return drive_to(*target, left);
-  if (const auto target = farthest_free(way, radius(), kShortest)) return drive_to(*target, left);
+  if (const auto target = farthest_free(way, radius(), kShortest)) return drive_to(widest_beside(*target), left);
   // Up to what stands there, looking at it.
   return turn_to(bearing_of(point_along(way, options_.look_ahead).p));
 }

@@ -81,6 +81,7 @@ class RouteFollower {
   [[nodiscard]] std::optional<Vector2d> place_to_the_right(std::span<const Vector2d> way) const;
   [[nodiscard]] std::optional<Vector2d> farthest_free(std::span<const Vector2d> way, double wide,
                                                       double shortest) const;
+  [[nodiscard]] Vector2d widest_beside(const Vector2d& target) const;
   [[nodiscard]] std::optional<Vector2d> first_barred(std::span<const Vector2d> way) const;
 
   FollowerOptions options_;

@@ -4,114 +4,16 @@
 
 #include <cmath>
 
-#include "helicoid/geometry/ray_casting.hpp"
-#include "tests/synthetic_room.hpp"
+#include "tests/synthetic_floor.hpp"
 
 namespace helicoid {
 namespace {
 
 using synthetic::Builder;
+using synthetic::Driver;
+using synthetic::Floor;
+using synthetic::outline;
 using synthetic::Wall;
-
-constexpr double kDt = 0.1;
-constexpr double kRadius = 0.20;
-
-Neighbours all_neighbours(const Map& map) {
-  Neighbours neighbours(map.patch_count());
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    for (std::size_t j = 0; j < neighbours.size(); ++j) {
-      if (i != j) neighbours[i].push_back(make_id<PatchId>(j));
-    }
-  }
-  return neighbours;
-}
-
-/// A robot's outline, or a person's.
-std::vector<Wall> outline(const Vector2d& centre, double radius) {
-  std::vector<Wall> sides;
-  sides.reserve(12);
-  const auto corner = [&](int k) {
-    const double angle = radians(30.0 * k);
-    return Vector2d(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
-  };
-  for (int k = 0; k < 12; ++k) sides.push_back({corner(k), corner(k + 1)});
-  return sides;
-}
-
-struct Driver {
-  Pose2 T_plane_robot;
-  RouteFollower follower;
-  DriveCommand wheels = {};
-  FollowStep step = {};
-  double closest = 10;  ///< to a wall or to another, metres
-};
-
-/// Robots that obey their limits in a building that the map knows.
-struct Floor {
-  std::vector<Wall> walls;
-  Builder builder;
-  std::vector<Wall> unknown;  ///< stands there, but is not in the map
-  std::vector<Driver> drivers = {};
-
-  [[nodiscard]] ManifoldPose on_map(const Pose2& pose) const {
-    PatchId best{0};
-    for (const PatchId id : builder.patches()) {
-      const auto distance = [&](PatchId p) {
-        return (builder.map.T_plane_patch(p).translation() - pose.translation()).norm();
-      };
-      if (distance(id) < distance(best)) best = id;
-    }
-    return {best, ominus(pose, builder.map.T_plane_patch(best))};
-  }
-
-  void send(const Pose2& from, const Vector2d& to, int right_of_way = 0) {
-    const NavigableMap map(builder.map, all_neighbours(builder.map));
-    FollowerOptions options;
-    options.right_of_way = right_of_way;
-    Driver driver{from, RouteFollower(options)};
-    ManifoldRoute route = plan_route(map, on_map(from), point_of(on_map({to.x(), to.y(), 0})));
-    ASSERT_EQ(route.status, RouteStatus::found);
-    driver.follower.follow(std::move(route));
-    drivers.push_back(std::move(driver));
-  }
-
-  void tick() {
-    for (std::size_t i = 0; i < drivers.size(); ++i) {
-      Driver& driver = drivers[i];
-      std::vector<Wall> seen = walls;
-      synthetic::append(seen, unknown);
-      for (std::size_t j = 0; j < drivers.size(); ++j) {
-        if (j != i) synthetic::append(seen, outline(drivers[j].T_plane_robot.translation(), kRadius));
-      }
-      const Scan scan = synthetic::take_scan(seen, driver.T_plane_robot, builder.laser);
-      driver.step = driver.follower.step(builder.map, on_map(driver.T_plane_robot), scan, builder.laser, kDt);
-      move(driver);
-      std::vector<Segment> segments;
-      segments.reserve(seen.size());
-      for (const Wall& wall : seen) segments.push_back({wall.from, wall.to});
-      driver.closest = std::min(driver.closest, RayCaster(segments).clearance(driver.T_plane_robot.translation(), 10));
-    }
-  }
-  static void move(Driver& driver) {
-    const auto towards = [](double now, double wanted, double most) {
-      return now + std::clamp(wanted - now, -most, most);
-    };
-    driver.wheels.speed = towards(driver.wheels.speed, driver.step.command.speed, 1.0 * kDt);
-    driver.wheels.turn_rate = towards(driver.wheels.turn_rate, driver.step.command.turn_rate, 3.0 * kDt);
-    driver.T_plane_robot =
-        driver.T_plane_robot * exponential(kDt * Vector3d(driver.wheels.speed, 0, driver.wheels.turn_rate));
-  }
-  /// Until all have arrived; how long that took, seconds.
-  double run(double longest) {
-    double now = 0;
-    const auto done = [](const Driver& d) { return d.step.status == FollowStatus::arrived; };
-    while (now < longest && !std::all_of(drivers.begin(), drivers.end(), done)) {
-      tick();
-      now += kDt;
-    }
-    return now;
-  }
-};
 
 /// Two rooms with a door of 0.9 m between them, one with a table.
 Floor two_rooms() {
@@ -192,6 +94,18 @@ TEST(RouteFollower, LeavesWhatItStandsTooNearToPassStraightAhead) {
   floor.unknown = outline({5.12, 1.43}, 0.2);
   EXPECT_LT(floor.run(40), 20);
   EXPECT_GE(floor.drivers[0].closest, 0.21);
+}
+
+TEST(RouteFollower, PassesAGapWhereItIsWidest) {
+  // What is nearer on one side may be nearer still: lasers measure what is dark some centimetres too far off.
+  for (const double side : {-1.0, 1.0}) {
+    Floor floor = corridor(3);
+    floor.send({1, 1.5, 0}, {13, 1.5});
+    floor.unknown = synthetic::rectangle(6, 1.5 + side * 0.235, 7, 1.5 + side * 0.8);
+    synthetic::append(floor.unknown, synthetic::rectangle(6, 1.5 - side * 0.295, 7, 1.5 - side * 0.9));
+    EXPECT_LT(floor.run(60), 45);
+    EXPECT_GE(floor.drivers[0].closest, 0.245) << side;
+  }
 }
 
 TEST(RouteFollower, SaysThatItIsBlockedAndByWhat) {
