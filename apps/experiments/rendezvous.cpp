@@ -21,8 +21,9 @@ constexpr double kSame = 1.0;  // metres: places that far from where they were s
 constexpr std::array<std::size_t, 4> kEitherWing{0, 1, 2, 3};
 constexpr std::array<std::size_t, 4> kOneWing{0, 1, 4, 5};
 
-/// The second pair comes when the first has something to tell: in the other wing once its own is mapped,
-constexpr double kWhenMapped = 60;  // seconds
+/// The second pair comes when the first has something to tell: in the other wing while that maps its own still, or they
+/// see each other in the corridor before there is anything to ask,
+constexpr double kWhenUnderWay = 30;  // seconds
 /// in the same wing once the first has gone on, or they see each other at once.
 constexpr double kWhenGone = 240;  // seconds
 
@@ -115,7 +116,7 @@ Result<MetRun> explore(const World& world, std::span<const std::size_t> starts, 
   job.simulation.seed = seed;
   for (const std::size_t start : starts) job.robots.push_back({world.starts[start]});
   const bool is_one_wing = starts[2] == kOneWing[2];
-  job.robots[2].joins_at = job.robots[3].joins_at = is_one_wing ? kWhenGone : kWhenMapped;
+  job.robots[2].joins_at = job.robots[3].joins_at = is_one_wing ? kWhenGone : kWhenUnderWay;
   job.pilot.explorer.meet = policy == Policy::meet;
   job.pilot.greedy = policy == Policy::believe;
   job.longest = kLongest;
@@ -243,22 +244,20 @@ Experiment rendezvous_experiment() {
   e.question = "Do robots that arrange to meet settle whether two places are one?";
   e.method =
       "A building with two wings that are alike to the millimetre; two pairs of robots that know nothing of one "
-      "another begin one in either wing, the second a minute later; or the second, four minutes later, elsewhere in "
-      "the wing in which the first "
-      "began. Where places of the two maps look alike and it is worth the way, a robot of either is sent: if the "
-      "places were one they would see each other. Met: they did, at the two places or one of them on the way there; "
-      "distinct: both stood there and did not, though a sighting would have been as likely as given (least chance); "
-      "joined meanwhile: other robots saw each other by chance before. Settled wrongly: accepted, though the places "
-      "are more than a metre from where that has them, or recorded as distinct though they are not. A merge is wrong "
-      "if robots that it joins are more than a metre, and more than the map itself says (99 %), from where the map has "
-      "them relative to one another. The same "
-      "beside without rendezvous (waiting: islands are joined when robots happen to see each other) and with greedy "
-      "closure (what looks alike is believed at once). Joined: both pairs are on one map. Explored: nothing is left to "
-      "look at, and everybody is home, or 20 minutes are over. Each answer is to occur in half of the runs at least of "
-      "the case in which it "
-      "is asked for: a pair that begins where another has been must be met, though it is also told that it is not in "
-      "the other wing. The pictures show the first run of each case: the building with the two of each meeting where "
-      "they were when it was settled, and the map with meetings and with greedy closure.";
+      "another begin one in either wing, the second half a minute later; or the second, four minutes later, "
+      "elsewhere in the wing in which the first began. Where places of the two maps look alike and it is worth the "
+      "way, a robot of either is sent: if the places were one they would see each other. Met: they did, at the two "
+      "places or one of them on the way there; distinct: both stood there and did not, though a sighting would have "
+      "been as likely as given (least chance); joined meanwhile: other robots saw each other by chance before. "
+      "Settled wrongly: accepted, though the places are more than a metre from where that has them, or recorded as "
+      "distinct though they are not. A merge is wrong if robots that it joins are more than a metre, and more than "
+      "the map itself says (99 %), from where the map has them relative to one another. The same beside without "
+      "rendezvous (waiting: islands are joined when robots happen to see each other) and with greedy closure (what "
+      "looks alike is believed at once). Joined: both pairs are on one map. Explored: nothing is left to look at, "
+      "and everybody is home, or 20 minutes are over. Each answer is to occur in half of the runs at least of the "
+      "case in which it is asked for: a pair that begins where another has been must be met, though it is also told "
+      "that it is not in the other wing. The pictures show the first run of each case: the building with the two of "
+      "each meeting where they were when it was settled, and the map with meetings and with greedy closure.";
   e.bars = {{"met_runs_ratio", 0.5, std::nullopt, true},         {"distinct_runs_ratio", 0.5, std::nullopt, true},
             {"settled_wrongly_count", std::nullopt, 0.0, false}, {"least_chance_percent", 95.0, std::nullopt, false},
             {"wrong_merges_count", std::nullopt, 0.0, false},    {"collisions_count", std::nullopt, 0.0, false}};
