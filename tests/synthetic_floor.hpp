@@ -40,6 +40,8 @@ inline std::vector<Wall> outline(const Vector2d& centre, double radius) {
 struct Driver {
   Pose2 T_plane_robot;
   RouteFollower follower;
+  Pose2 T_odom_robot = T_plane_robot;
+  double snag = 1e9;  ///< beyond this x, which nobody sees, its wheels slip, metres
   DriveCommand wheels = {};
   FollowStep step = {};
   double closest = 10;  ///< to a wall or to another, metres
@@ -82,7 +84,8 @@ struct Floor {
       for (std::size_t j = 0; j < drivers.size(); ++j) {
         if (j != i) append(seen, outline(drivers[j].T_plane_robot.translation(), kRadius));
       }
-      const Scan scan = take_scan(seen, driver.T_plane_robot, builder.laser);
+      Scan scan = take_scan(seen, driver.T_plane_robot, builder.laser);
+      scan.T_odom_robot = driver.T_odom_robot;
       driver.step = driver.follower.step(builder.map, on_map(driver.T_plane_robot), scan, builder.laser, kDt);
       move(driver);
       std::vector<Segment> segments;
@@ -97,8 +100,11 @@ struct Floor {
     };
     driver.wheels.speed = towards(driver.wheels.speed, driver.step.command.speed, 1.0 * kDt);
     driver.wheels.turn_rate = towards(driver.wheels.turn_rate, driver.step.command.turn_rate, 3.0 * kDt);
-    driver.T_plane_robot =
-        driver.T_plane_robot * exponential(kDt * Vector3d(driver.wheels.speed, 0, driver.wheels.turn_rate));
+    const Pose2 motion = exponential(kDt * Vector3d(driver.wheels.speed, 0, driver.wheels.turn_rate));
+    driver.T_odom_robot = driver.T_odom_robot * motion;
+    const Pose2 after = driver.T_plane_robot * motion;
+    if (after.x < driver.snag || after.x < driver.T_plane_robot.x) driver.T_plane_robot = after;
+    driver.T_plane_robot.yaw = after.yaw;
   }
   /// Until all have arrived; how long that took, seconds.
   double run(double longest) {

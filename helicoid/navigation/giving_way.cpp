@@ -7,13 +7,14 @@ namespace helicoid {
 
 namespace {
 
-constexpr double kGotSomewhere = 0.3;     // metres
-constexpr double kTrailStep = 0.2;        // metres
-constexpr std::size_t kTrailLength = 40;  // steps
-constexpr double kRoomToPass = 0.6;       // round a robot that lets another pass, metres
-constexpr double kLeastRetreat = 1.2;     // metres
-constexpr double kTrailReach = 3.0;       // metres
-constexpr double kWaitAside = 6;          // seconds
+constexpr double kGotSomewhere = 0.3;       // metres
+constexpr double kGotSomewhereOnMap = 0.1;  // metres
+constexpr double kTrailStep = 0.2;          // metres
+constexpr std::size_t kTrailLength = 40;    // steps
+constexpr double kRoomToPass = 0.6;         // round a robot that lets another pass, metres
+constexpr double kLeastRetreat = 1.2;       // metres
+constexpr double kTrailReach = 3.0;         // metres
+constexpr double kWaitAside = 6;            // seconds
 
 }  // namespace
 
@@ -29,13 +30,17 @@ void RouteFollower::note_trail(const Map& map, const ManifoldPose& robot) {
   if (trail_.size() > kTrailLength) trail_.pop_front();
 }
 
-/// By odometry: what the map thinks of it does not count.
-void RouteFollower::note_progress(const Scan& scan, double dt) {
+/// By odometry, for a fit may move the robot; and on the map, for wheels slip.
+void RouteFollower::note_progress(const Map& map, const ManifoldPose& robot, const Scan& scan, double dt) {
   waiting_ += dt;
-  if (!scan.has_odometry) return;
-  const Vector2d here = scan.T_odom_robot.translation();
-  if (p_odom_waiting_ && (here - *p_odom_waiting_).norm() < kGotSomewhere) return;
-  p_odom_waiting_ = here;
+  const auto apart = [](const Vector2d& a, const Vector2d& b) { return (a - b).norm(); };
+  const Vector2d p_odom = scan.T_odom_robot.translation();
+  if (waits_at_ && map.island_of(waits_at_->pose.patch) == map.island_of(robot.patch)) {
+    const Vector2d p_plane = map.project(robot).translation();
+    if (scan.has_odometry && apart(p_odom, waits_at_->p_odom) < kGotSomewhere) return;
+    if (apart(p_plane, map.project(waits_at_->pose).translation()) < kGotSomewhereOnMap) return;
+  }
+  waits_at_ = {robot, p_odom};
   waiting_ = 0;
 }
 

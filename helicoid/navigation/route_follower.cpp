@@ -46,7 +46,7 @@ FollowStep RouteFollower::step(const Map& map, const ManifoldPose& robot, const 
   obstacles_.see(scan, laser, dt);
   note_trail(map, robot);
   if (route_.points.empty()) return {};
-  note_progress(scan, dt);
+  note_progress(map, robot, scan, dt);
   if (!giving_way_ && waiting_ > options_.patience + kTurnOfYielding * (kTurns - options_.right_of_way % kTurns)) {
     give_way(map, robot);
   }

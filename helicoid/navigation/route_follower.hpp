@@ -69,7 +69,7 @@ class RouteFollower {
     double waited = 0;  ///< at its end, seconds
   };
   void note_trail(const Map& map, const ManifoldPose& robot);
-  void note_progress(const Scan& scan, double dt);
+  void note_progress(const Map& map, const ManifoldPose& robot, const Scan& scan, double dt);
   void give_way(const Map& map, const ManifoldPose& robot);
   [[nodiscard]] double radius() const { return options_.robot_radius + options_.margin; }
   [[nodiscard]] DriveCommand pursue(std::span<const Vector2d> way, double left);
@@ -93,7 +93,12 @@ class RouteFollower {
   std::optional<GivingWay> giving_way_;
   bool turning_ = false;
   double waiting_ = 0;  ///< since the robot last got anywhere, seconds
-  std::optional<Vector2d> p_odom_waiting_;
+  /// Where it was then.
+  struct WaitsAt {
+    ManifoldPose pose;
+    Vector2d p_odom;
+  };
+  std::optional<WaitsAt> waits_at_;
 };
 
 }  // namespace helicoid

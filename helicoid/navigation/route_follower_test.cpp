@@ -120,6 +120,22 @@ TEST(RouteFollower, SaysThatItIsBlockedAndByWhat) {
   EXPECT_GE(driver.closest, 0.21);
 }
 
+TEST(RouteFollower, GoesBackFromWhereItsWheelsSlip) {
+  Floor floor = corridor(2);
+  floor.send({1, 1, 0}, {13, 1});
+  Driver& driver = floor.drivers[0];
+  driver.snag = 6;
+  floor.run(20);
+  EXPECT_EQ(driver.step.status, FollowStatus::blocked);
+  EXPECT_GT(driver.T_odom_robot.x, 7);  // as if it got on
+  double least = driver.T_plane_robot.x;
+  for (int tick = 0; tick < 200; ++tick) {
+    floor.tick();
+    least = std::min(least, driver.T_plane_robot.x);
+  }
+  EXPECT_LT(least, 5);
+}
+
 TEST(RouteFollower, PassesAnotherInACorridor) {
   for (const double width : {1.3, 1.6, 2.0, 3.0}) {
     Floor floor = corridor(width);
