@@ -1,6 +1,7 @@
 // helicoid experiment: a question about the program, answered with numbers and judged by bars.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include "apps/experiment_page.hpp"
@@ -44,6 +45,7 @@ int write_page(const Experiment& experiment, const ExperimentArguments& a, const
   if (auto done = write_experiment_page(experiment, a.options, report, folder); !done) {
     return report_failure(done.error().message);
   }
+  std::fflush(stdout);  // or this stands in the middle of the table where both go to one file
   fmt::print(stderr, "page: {}/{}.md\n", folder, experiment.name);
   return kDone;
 }

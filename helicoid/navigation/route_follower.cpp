@@ -16,7 +16,7 @@ constexpr double kBerth = 0.04;          // metres
 constexpr double kShortestBerth = 0.30;  // look-ahead with a berth, metres
 constexpr double kLookingStep = 0.08;    // between look-aheads that are tried, metres
 constexpr double kShift = 0.02;          // between places beside a target that are tried, metres
-constexpr double kMostShift = 0.08;      // metres
+constexpr double kMostShift = 0.15;      // as a share of the way there: a robot turns in little by little
 constexpr double kBesideAhead = 0.7;     // metres
 constexpr double kMostAside = 0.8;       // metres
 constexpr double kTurnGain = 2.5;        // radians a second for a radian
@@ -33,6 +33,7 @@ void RouteFollower::follow(ManifoldRoute route, std::optional<ManifoldHeading> h
   route_ = std::move(route);
   heading_ = heading;
   cursor_ = {};
+  near_enough_ = false;
 }
 
 void RouteFollower::stop() {
@@ -64,7 +65,7 @@ FollowStep RouteFollower::drive(const Map& map, const ManifoldPose& robot) {
   const RouteAhead ahead = route_ahead(map, route_.points, robot, cursor_, kReach);
   cursor_ = ahead.cursor;
   const double to_goal = ahead.left + ahead.aside;
-  if (to_goal < options_.arrived) return finish(map, robot, to_goal);
+  if (to_goal < options_.arrived || is_as_near_as_it_gets(ahead)) return finish(map, robot, to_goal);
   FollowStep step;
   step.status = FollowStatus::driving;
   step.left = ahead.left;
@@ -85,6 +86,14 @@ FollowStep RouteFollower::drive(const Map& map, const ManifoldPose& robot) {
   }
   step.command = pursue(way, to_goal);
   return step;
+}
+
+/// Where something stands at the goal, or at where the map has it, it is reached from beside it.
+bool RouteFollower::is_as_near_as_it_gets(const RouteAhead& ahead) {
+  const Vector2d& goal = ahead.way.back();
+  near_enough_ = (near_enough_ || waiting_ > options_.patience) && goal.norm() < options_.stands_off &&
+                 ahead.left < options_.look_ahead && obstacles_.clearance(goal, radius()) < radius();
+  return near_enough_;
 }
 
 /// Ahead, as far to the right of the way as there is room: where two meet, each makes room for the other.
@@ -142,7 +151,7 @@ Vector2d RouteFollower::widest_beside(const Vector2d& target) const {
   };
   Vector2d widest = target;
   double room = room_towards(target);
-  for (double shift = kShift; shift <= kMostShift && room < enough; shift += kShift) {
+  for (double shift = kShift; shift <= kMostShift * target.norm() && room < enough; shift += kShift) {
     for (const double side : {-shift, shift}) {
       const Vector2d p = target + side * left;
       const double wide = room_towards(p);

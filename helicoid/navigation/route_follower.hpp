@@ -21,6 +21,7 @@ struct FollowerOptions {
   double look_ahead = 0.6;       ///< of the pursuit, metres
   double turn_in_place = 0.7;    ///< a target farther to the side than this is turned to on the spot, radians
   double arrived = 0.10;         ///< this near to the goal is there, metres
+  double stands_off = 0.25;      ///< a goal at which there is no room is reached from this near, metres
   double heading_arrived = 0.1;  ///< radians
   double patience = 4;           ///< without getting anywhere until a robot says that it is blocked, seconds
   /// Of robots that wait for one another the one with the largest number gives way first; numbers differ.
@@ -76,6 +77,7 @@ class RouteFollower {
   [[nodiscard]] DriveCommand turn_to(double bearing);
   [[nodiscard]] DriveCommand drive_to(const Vector2d& target, double left);
   [[nodiscard]] FollowStep drive(const Map& map, const ManifoldPose& robot);
+  [[nodiscard]] bool is_as_near_as_it_gets(const RouteAhead& ahead);
   [[nodiscard]] FollowStep finish(const Map& map, const ManifoldPose& robot, double left);
   [[nodiscard]] std::optional<DriveCommand> step_aside(const Map& map, const ManifoldPose& robot, double dt);
   [[nodiscard]] std::optional<Vector2d> place_to_the_right(std::span<const Vector2d> way) const;
@@ -92,7 +94,8 @@ class RouteFollower {
   std::deque<Trail> trail_;
   std::optional<GivingWay> giving_way_;
   bool turning_ = false;
-  double waiting_ = 0;  ///< since the robot last got anywhere, seconds
+  bool near_enough_ = false;  ///< to a goal at which there is no room
+  double waiting_ = 0;        ///< since the robot last got anywhere, seconds
   /// Where it was then.
   struct WaitsAt {
     ManifoldPose pose;

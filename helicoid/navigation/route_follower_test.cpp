@@ -108,6 +108,20 @@ TEST(RouteFollower, PassesAGapWhereItIsWidest) {
   }
 }
 
+TEST(RouteFollower, ArrivesBesideAGoalAtWhichThereIsNoRoom) {
+  Floor floor = corridor(2);
+  floor.send({1, 1, 0}, {6, 1});
+  floor.unknown = {{{6.17, 0}, {6.17, 2}}};
+  EXPECT_LT(floor.run(40), 20);
+  Driver& driver = floor.drivers[0];
+  EXPECT_GT(driver.T_plane_robot.x, 5.8);
+  for (int tick = 0; tick < 100; ++tick) {
+    floor.tick();
+    ASSERT_EQ(driver.step.status, FollowStatus::arrived) << "and stays there";
+  }
+  EXPECT_GE(driver.closest, 0.21);
+}
+
 TEST(RouteFollower, SaysThatItIsBlockedAndByWhat) {
   Floor floor = corridor(2);
   floor.send({1, 1, 0}, {13, 1});
