@@ -7,35 +7,54 @@
 #include <optional>
 
 #include "helicoid/eval/trajectory_error.hpp"
+#include "helicoid/manifold/stated_confidence.hpp"
 
 namespace helicoid {
 
 namespace {
 
-/// Where the other map has the scan that a patch of this one was made from; nothing if it does not have it.
-std::optional<ManifoldPose> elsewhere(const Patch& patch, const Map& other) {
-  const Trajectory& trajectory = other.robot(patch.robot).trajectory;
-  if (patch.scan_index >= trajectory.size()) return std::nullopt;
-  return trajectory[patch.scan_index].pose;
+constexpr double kElsewhere = 0.10;  // metres
+
+/// What the other map says about the places of this one's closures.
+struct ClosuresThere {
+  double apart_m = 0;  ///< the most; infinity: on different islands, or nothing is said of it
+  std::size_t elsewhere = 0;
+};
+
+/// The scan that a patch was made from.
+StatedConfidence::TakenScan taken(const Patch& patch) {
+  return {patch.robot, patch.scan_index};
 }
 
-/// The most that the other map has the places of this one's closures elsewhere to each other, metres. Infinity: on
-/// different islands, or not at all.
-double closures_apart(const Mapper& mapper, const Map& other) {
-  double most = 0;
+/// The island on which the other map has a scan; nothing if it does not have it.
+std::optional<IslandId> island_of(const Map& other, const StatedConfidence::TakenScan& scan) {
+  const Trajectory& trajectory = other.robot(scan.robot).trajectory;
+  if (scan.index >= trajectory.size()) return std::nullopt;
+  return other.island_of(trajectory[scan.index].pose.patch);
+}
+
+ClosuresThere closures_there(const Mapper& mapper, const Map& other) {
+  ClosuresThere there;
+  std::map<IslandId, StatedConfidence> stated;
+  for (const Island& island : other.islands()) stated.try_emplace(island.id, other, island);
   const Map& map = mapper.map();
   for (const Hypothesis& h : mapper.ledger()) {
     if (!h.is_closure()) continue;
-    const std::optional<ManifoldPose> a = elsewhere(map.patch(h.a), other);
-    const std::optional<ManifoldPose> b = elsewhere(map.patch(h.b), other);
-    if (!a || !b || other.island_of(a->patch) != other.island_of(b->patch)) {
-      return std::numeric_limits<double>::infinity();
+    const StatedConfidence::TakenScan a = taken(map.patch(h.a));
+    const StatedConfidence::TakenScan b = taken(map.patch(h.b));
+    const std::optional<IslandId> island = island_of(other, a);
+    if (!island || island != island_of(other, b) || !stated.at(*island).is_determined()) {
+      there.apart_m = std::numeric_limits<double>::infinity();
+      ++there.elsewhere;
+      continue;
     }
     const Pose2 T_a_b = map.T_plane_patch(h.a).inverse() * map.T_plane_patch(h.b);
-    const Pose2 T_a_b_other = other.project(*a).inverse() * other.project(*b);
-    most = std::max(most, (T_a_b.translation() - T_a_b_other.translation()).norm());
+    const UncertainPose2 said = stated.at(*island).between(a, b);
+    const double apart = (said.T_a_b.translation() - T_a_b.translation()).norm();
+    there.apart_m = std::max(there.apart_m, apart);
+    if (apart > kElsewhere && is_beyond_said(said, T_a_b)) ++there.elsewhere;
   }
-  return most;
+  return there;
 }
 
 /// The island of each robot's scans; one that has none is nowhere.
@@ -97,7 +116,10 @@ OrderEffect compare_orders(const Mapper& heard, const Mapper& stamped) {
   effect.same_islands = share_alike(islands_of_robots(heard.map()), islands_of_robots(stamped.map()));
   effect.closures_heard = count_closures(heard.ledger());
   effect.closures_stamped = count_closures(stamped.ledger());
-  effect.closures_apart_m = std::max(closures_apart(heard, stamped.map()), closures_apart(stamped, heard.map()));
+  const ClosuresThere in_stamped = closures_there(heard, stamped.map());
+  const ClosuresThere in_heard = closures_there(stamped, heard.map());
+  effect.closures_apart_m = std::max(in_stamped.apart_m, in_heard.apart_m);
+  effect.closures_elsewhere = in_stamped.elsewhere + in_heard.elsewhere;
   double count = 0;
   for (const auto& [island, pairs] : pairs_of(heard.map(), stamped.map())) {
     const Pose2 T_stamped_heard = best_transform(pairs);

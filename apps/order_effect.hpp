@@ -11,6 +11,9 @@ struct OrderEffect {
   std::size_t closures_stamped = 0;  ///< and of the map by stamps
   /// The most that the maps disagree about where two places lie to each other that either knows for closed, metres.
   double closures_apart_m = 0;
+  /// Closures of either whose places the other map has elsewhere to each other, by more than a hand's breadth (0.10 m)
+  /// and by more than it says itself (99 %).
+  std::size_t closures_elsewhere = 0;
   double mean_m = 0;  ///< between the poses of one scan in the two maps, each island after one rigid transform
   double farthest_m = 0;
   double mean_deg = 0;

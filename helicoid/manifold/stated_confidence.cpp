@@ -1,5 +1,6 @@
 #include "helicoid/manifold/stated_confidence.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +15,8 @@ constexpr double kShortest = 0.15;
 constexpr double kLongest = 2;
 /// And over so many scans at most to either side.
 constexpr std::size_t kWidest = 5;
+/// 99 % of chi square at three degrees of freedom.
+constexpr double kBeyond = 11.345;
 
 /// How well a scan is tied to its stamp: the laser's floors, and a moment of the robot's motion.
 Matrix3d floor_of(const LaserModel& laser, const Vector3d& twist, double timing_sigma) {
@@ -59,6 +62,12 @@ UncertainPose2 StatedConfidence::with_floors(const UncertainPose2& ab, const Tak
   const Vector2d longer = options_.scale_sigma * ab.T_a_b.translation();
   stated.covariance.topLeftCorner<2, 2>() += longer * longer.transpose();
   return stated;
+}
+
+bool is_beyond_said(const UncertainPose2& said, const Pose2& T_a_b) {
+  // In the first's frame, as the covariance.
+  const Vector3d off(said.T_a_b.x - T_a_b.x, said.T_a_b.y - T_a_b.y, wrap_angle(said.T_a_b.yaw - T_a_b.yaw));
+  return off.dot(said.covariance.ldlt().solve(off)) > kBeyond;
 }
 
 Vector3d twist_at(const Map& map, const StatedConfidence::TakenScan& scan) {

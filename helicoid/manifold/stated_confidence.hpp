@@ -53,6 +53,9 @@ class StatedConfidence {
   RelativeCovariance exact_;
 };
 
+/// True if a relative pose is elsewhere by more than is said of it (99 %).
+[[nodiscard]] bool is_beyond_said(const UncertainPose2& said, const Pose2& T_a_b);
+
 /// The robot's velocity about one of its scans (v_x, v_y, omega; metres and radians a second, in its own frame), from
 /// the nearest scans before and after it between which time enough passed. Zero where the clock does not say.
 [[nodiscard]] Vector3d twist_at(const Map& map, const StatedConfidence::TakenScan& scan);
