@@ -7,7 +7,7 @@ namespace helicoid {
 
 namespace {
 
-constexpr double kGotSomewhere = 0.3;       // metres
+constexpr double kGotSomewhere = 0.3;       // by odometry, metres
 constexpr double kGotSomewhereOnMap = 0.1;  // metres
 constexpr double kTrailStep = 0.2;          // metres
 constexpr std::size_t kTrailLength = 40;    // steps
