@@ -15,16 +15,6 @@ namespace helicoid::synthetic {
 constexpr double kDt = 0.1;
 constexpr double kRadius = 0.20;
 
-inline Neighbours all_neighbours(const Map& map) {
-  Neighbours neighbours(map.patch_count());
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    for (std::size_t j = 0; j < neighbours.size(); ++j) {
-      if (i != j) neighbours[i].push_back(make_id<PatchId>(j));
-    }
-  }
-  return neighbours;
-}
-
 /// A robot's outline, or a person's.
 inline std::vector<Wall> outline(const Vector2d& centre, double radius) {
   std::vector<Wall> sides;
@@ -66,7 +56,7 @@ struct Floor {
   }
 
   void send(const Pose2& from, const Vector2d& to, int right_of_way = 0) {
-    const NavigableMap map(builder.map, all_neighbours(builder.map));
+    const NavigableMap map(builder.map, neighbours_of(builder.map));
     FollowerOptions options;
     options.right_of_way = right_of_way;
     Driver driver{from, RouteFollower(options)};

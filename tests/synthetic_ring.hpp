@@ -1,24 +1,11 @@
 // A corridor that leads back to where it began, for tests of what lies over what.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
-#include "helicoid/manifold/neighbours.hpp"
 #include "tests/synthetic_room.hpp"
 
 namespace helicoid::synthetic {
-
-/// All patches vouch for one another, or those do that were made less than `apart` after one another.
-inline Neighbours neighbours_of(const Map& map, std::size_t apart = 1000) {
-  Neighbours neighbours(map.patch_count());
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    for (std::size_t j = 0; j < neighbours.size(); ++j) {
-      if (i != j && std::max(i, j) - std::min(i, j) < apart) neighbours[i].push_back(make_id<PatchId>(j));
-    }
-  }
-  return neighbours;
-}
 
 /// A corridor of 2 m round a block, driven round a little more than once.
 struct Ring {

@@ -1,6 +1,7 @@
 // Small maps of known rooms for tests: noise-free scans of straight walls, with every pose known.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include "helicoid/base/random.hpp"
 #include "helicoid/manifold/map.hpp"
 #include "helicoid/manifold/map_editor.hpp"
+#include "helicoid/manifold/neighbours.hpp"
 
 namespace helicoid::synthetic {
 
@@ -126,6 +128,17 @@ inline Builder pillar_map(int rounds = 1) {
     }
   }
   return builder;
+}
+
+/// All patches vouch for one another, or those do that were made less than `apart` after one another.
+inline Neighbours neighbours_of(const Map& map, std::size_t apart = 1000) {
+  Neighbours neighbours(map.patch_count());
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    for (std::size_t j = 0; j < neighbours.size(); ++j) {
+      if (i != j && std::max(i, j) - std::min(i, j) < apart) neighbours[i].push_back(make_id<PatchId>(j));
+    }
+  }
+  return neighbours;
 }
 
 inline Pose2 random_pose(Random& random) {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "apps/experiments/false_closures.hpp"
 #include "apps/experiments/list.hpp"
 #include "apps/explore_quality.hpp"
 #include "apps/explore_run.hpp"
