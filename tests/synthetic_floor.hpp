@@ -27,6 +27,14 @@ inline std::vector<Wall> outline(const Vector2d& centre, double radius) {
   return sides;
 }
 
+/// From a point to the nearest wall, metres, at most 10.
+inline double clearance(std::span<const Wall> walls, const Vector2d& p_plane) {
+  std::vector<Segment> segments;
+  segments.reserve(walls.size());
+  for (const Wall& wall : walls) segments.push_back({wall.from, wall.to});
+  return std::min(10.0, RayCaster(segments).clearance(p_plane, 10));
+}
+
 struct Driver {
   Pose2 T_plane_robot;
   RouteFollower follower;
@@ -78,10 +86,7 @@ struct Floor {
       scan.T_odom_robot = driver.T_odom_robot;
       driver.step = driver.follower.step(builder.map, on_map(driver.T_plane_robot), scan, builder.laser, kDt);
       move(driver);
-      std::vector<Segment> segments;
-      segments.reserve(seen.size());
-      for (const Wall& wall : seen) segments.push_back({wall.from, wall.to});
-      driver.closest = std::min(driver.closest, RayCaster(segments).clearance(driver.T_plane_robot.translation(), 10));
+      driver.closest = std::min(driver.closest, clearance(seen, driver.T_plane_robot.translation()));
     }
   }
   static void move(Driver& driver) {

@@ -10,15 +10,22 @@ namespace helicoid {
 namespace {
 
 constexpr double kReach = 3.0;      // of the route that is looked at, metres
+constexpr double kSlowest = 0.03;   // metres a second
 constexpr double kShortest = 0.12;  // look-ahead, metres
 // Beyond the margin, where the way leaves room for it: lasers measure dark surfaces some centimetres too far off.
 constexpr double kBerth = 0.04;          // metres
 constexpr double kShortestBerth = 0.30;  // look-ahead with a berth, metres
 constexpr double kLookingStep = 0.08;    // between look-aheads that are tried, metres
+constexpr double kTooNear = 0.01;        // beyond the margin, metres
+constexpr double kStepTurn = 0.2;        // between directions of a step aside, radians
+constexpr double kMostStepTurn = 2.0;    // radians
 constexpr double kShift = 0.02;          // between places beside a target that are tried, metres
 constexpr double kMostShift = 0.15;      // as a share of the way there: a robot turns in little by little
 constexpr double kBesideAhead = 0.7;     // metres
 constexpr double kMostAside = 0.8;       // metres
+constexpr double kMoversAhead = 1.4;     // farther aside nothing is given way to, radians
+constexpr double kComesAcross = 0.3;     // sine of the angle between its way and the robot's
+constexpr double kStandsClear = 0.35;    // of what has the right of way, metres
 constexpr double kTurnGain = 2.5;        // radians a second for a radian
 constexpr double kTurnOfYielding = 2;    // between two robots' turns to give way, seconds
 constexpr int kTurns = 8;
@@ -45,6 +52,7 @@ void RouteFollower::stop() {
 FollowStep RouteFollower::step(const Map& map, const ManifoldPose& robot, const Scan& scan, const LaserModel& laser,
                                double dt) {
   obstacles_.see(scan, laser, dt);
+  movers_.see(scan, laser, dt);
   note_trail(map, robot);
   if (route_.points.empty()) return {};
   note_progress(map, robot, scan, dt);
@@ -69,6 +77,7 @@ FollowStep RouteFollower::drive(const Map& map, const ManifoldPose& robot) {
   FollowStep step;
   step.status = FollowStatus::driving;
   step.left = ahead.left;
+  if (speed_among_movers() < kSlowest) return step;
   std::vector<Vector2d> way = ahead.way;
   const std::optional<Vector2d> barred = first_barred(way);
   if (barred) step.obstruction = ManifoldPoint{robot.patch, robot.T_patch_robot * *barred};
@@ -135,9 +144,26 @@ std::optional<Vector2d> RouteFollower::first_barred(std::span<const Vector2d> wa
 /// The farthest point of the way to which the robot can go straight, so wide from everything.
 std::optional<Vector2d> RouteFollower::farthest_free(std::span<const Vector2d> way, double wide,
                                                      double shortest) const {
-  for (double along = options_.look_ahead; along >= shortest; along -= kLookingStep) {
+  const int steps = static_cast<int>((options_.look_ahead - shortest) / kLookingStep + 1e-9);
+  for (int k = 0; k <= steps; ++k) {
+    const double along = options_.look_ahead - k * kLookingStep;
     const Vector2d target = point_along(way, along).p;
     if (obstacles_.free_way(target, wide) >= target.norm() - 1e-9) return target;
+  }
+  return std::nullopt;
+}
+
+/// Where the robot stands so near to something that every way on would bring it nearer still: a small step aside, as
+/// little as will do, to where there is room.
+std::optional<Vector2d> RouteFollower::off_what_is_near(std::span<const Vector2d> way) const {
+  if (obstacles_.clearance({0, 0}, radius() + kTooNear) >= radius() + kTooNear) return std::nullopt;
+  const double ahead = bearing_of(point_along(way, kShortest).p);
+  for (double aside = kStepTurn; aside < kMostStepTurn; aside += kStepTurn) {
+    for (const double turn : {-aside, aside}) {
+      const Vector2d p = kShortest * Vector2d(std::cos(ahead + turn), std::sin(ahead + turn));
+      if (obstacles_.clearance(p, 1) < radius() + kTooNear) continue;
+      if (obstacles_.free_way(p, radius()) >= p.norm() - 1e-9) return p;
+    }
   }
   return std::nullopt;
 }
@@ -163,10 +189,29 @@ Vector2d RouteFollower::widest_beside(const Vector2d& target) const {
   return widest;
 }
 
+/// What comes across from the right goes first, and what comes from the left waits; it can still stop if that does not.
+double RouteFollower::speed_among_movers() const {
+  double speed = options_.top_speed;
+  for (const MovingObstacle& mover : movers_.all()) {
+    if (std::abs(bearing_of(mover.p_robot)) > kMoversAhead) continue;
+    const double room = mover.p_robot.norm() - radius();
+    const bool known = mover.direction.norm() > 0.5;
+    const bool from_the_right = mover.p_robot.y() < 0 && (!known || mover.direction.y() > kComesAcross);
+    const double stops_in = from_the_right && waiting_ < options_.patience ? 0.5 * (room - kStandsClear) : room - 0.08;
+    speed = std::min(speed, std::sqrt(2 * options_.braking * std::max(0.0, stops_in)));
+  }
+  return speed;
+}
+
 /// Pure pursuit (Coulter 1992).
 DriveCommand RouteFollower::pursue(std::span<const Vector2d> way, double left) {
   if (const auto target = farthest_free(way, radius() + kBerth, kShortestBerth)) return drive_to(*target, left);
-  if (const auto target = farthest_free(way, radius(), kShortest)) return drive_to(widest_beside(*target), left);
+  if (const auto target = farthest_free(way, radius(), kShortest)) {
+    const DriveCommand command = drive_to(widest_beside(*target), left);
+    // Straight there is room, and by the arc that it would drive there is none.
+    if (command != DriveCommand{}) return command;
+  }
+  if (const auto target = off_what_is_near(way)) return drive_to(*target, left);
   // Up to what stands there, looking at it.
   return turn_to(bearing_of(point_along(way, options_.look_ahead).p));
 }
@@ -190,7 +235,8 @@ DriveCommand RouteFollower::drive_to(const Vector2d& target, double left) {
   // Beside the way as well: two that come together must both have stopped before they touch.
   speed = std::min(speed, 0.1 + 2.5 * std::max(room, 0.0));
   if (std::abs(curvature) > 1e-6) speed = std::min(speed, options_.top_turn_rate / std::abs(curvature));
-  if (speed < 0.03) return turn_to(bearing);
+  speed = std::min(speed, speed_among_movers());
+  if (speed < kSlowest) return turn_to(bearing);
   return {speed, speed * curvature};
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "helicoid/navigation/live_obstacles.hpp"
+#include "helicoid/navigation/moving_obstacles.hpp"
 #include "helicoid/navigation/plan_route.hpp"
 #include "helicoid/navigation/route_ahead.hpp"
 #include "helicoid/sensor/drive_command.hpp"
@@ -72,6 +73,7 @@ class RouteFollower {
   void note_trail(const Map& map, const ManifoldPose& robot);
   void note_progress(const Map& map, const ManifoldPose& robot, const Scan& scan, double dt);
   void give_way(const Map& map, const ManifoldPose& robot);
+  [[nodiscard]] double speed_among_movers() const;
   [[nodiscard]] double radius() const { return options_.robot_radius + options_.margin; }
   [[nodiscard]] DriveCommand pursue(std::span<const Vector2d> way, double left);
   [[nodiscard]] DriveCommand turn_to(double bearing);
@@ -83,6 +85,7 @@ class RouteFollower {
   [[nodiscard]] std::optional<Vector2d> place_to_the_right(std::span<const Vector2d> way) const;
   [[nodiscard]] std::optional<Vector2d> farthest_free(std::span<const Vector2d> way, double wide,
                                                       double shortest) const;
+  [[nodiscard]] std::optional<Vector2d> off_what_is_near(std::span<const Vector2d> way) const;
   [[nodiscard]] Vector2d widest_beside(const Vector2d& target) const;
   [[nodiscard]] std::optional<Vector2d> first_barred(std::span<const Vector2d> way) const;
 
@@ -91,6 +94,7 @@ class RouteFollower {
   std::optional<ManifoldHeading> heading_;
   RouteCursor cursor_;
   LiveObstacles obstacles_;
+  MovingObstacles movers_;
   std::deque<Trail> trail_;
   std::optional<GivingWay> giving_way_;
   bool turning_ = false;

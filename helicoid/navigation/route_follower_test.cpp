@@ -96,6 +96,25 @@ TEST(RouteFollower, LeavesWhatItStandsTooNearToPassStraightAhead) {
   EXPECT_GE(floor.drivers[0].closest, 0.21);
 }
 
+TEST(RouteFollower, StepsOffACornerThatItStandsTooNearToPass) {
+  Random random(6);
+  for (int round = 0; round < 60; ++round) {
+    Floor floor = corridor(1.3);
+    floor.send({5, 0.65, 0}, {10, 0.65});
+    // Most ways on would bring it nearer still.
+    const double side = round % 2 == 0 ? -1 : 1;
+    const double bearing = random.uniform(0.5, 1.5);
+    const Vector2d corner = random.uniform(0.212, 0.224) * Vector2d(std::cos(bearing), side * std::sin(bearing));
+    const double x = 5 + corner.x();
+    const double y = 0.65 + corner.y();
+    floor.unknown = synthetic::rectangle(x, y, x + 0.6, y + side * 0.3);
+    const double gap = random.uniform(0.58, 0.7);
+    synthetic::append(floor.unknown, synthetic::rectangle(4.5, y - side * gap, x + 0.6, y - side * (gap + 0.2)));
+    EXPECT_LT(floor.run(40), 20) << round;
+    EXPECT_GE(floor.drivers[0].closest, 0.21);
+  }
+}
+
 TEST(RouteFollower, PassesAGapWhereItIsWidest) {
   // What is nearer on one side may be nearer still: lasers measure what is dark some centimetres too far off.
   for (const double side : {-1.0, 1.0}) {
@@ -172,6 +191,25 @@ TEST(RouteFollower, DoesNotTouchAnotherWhoseWayComesTogetherWithItsOwn) {
     floor.send({1, y - apart / 2, random.uniform(0, 0.8)}, {random.uniform(2, 7), y + random.uniform(0, 1.5)}, 0);
     floor.send({1, y + apart / 2, -random.uniform(0, 0.8)}, {random.uniform(2, 7), y - random.uniform(0, 1.5)}, 1);
     floor.run(60);
+    for (const Driver& driver : floor.drivers) EXPECT_GE(driver.closest, 0.22) << round;
+  }
+}
+
+TEST(RouteFollower, DoesNotTouchAnotherWhoseWayCrossesItsOwn) {
+  const std::vector<Wall> walls = synthetic::rectangle(-5, -5, 5, 5);
+  Random random(5);
+  for (int round = 0; round < 40; ++round) {
+    Floor floor{walls, Builder(), {}};
+    for (const double yaw : {0.0, 1.57, 3.14, -1.57}) floor.builder.add(walls, {0, 0, yaw});
+    // Both are at the crossing at about the same time: each sees the other at the same bearing all along.
+    const double crossing = random.uniform(0.7, 2.4);
+    for (const int rank : {0, 1}) {
+      const double heading = rank * crossing;
+      const Vector2d along(std::cos(heading), std::sin(heading));
+      const Vector2d from = -random.uniform(2.5, 2.9) * along;
+      floor.send({from.x(), from.y(), heading}, 3 * along, rank);
+    }
+    EXPECT_LT(floor.run(60), 25) << round;
     for (const Driver& driver : floor.drivers) EXPECT_GE(driver.closest, 0.22) << round;
   }
 }
