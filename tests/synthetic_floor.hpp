@@ -113,4 +113,34 @@ struct Floor {
   }
 };
 
+/// Two rooms with a door of 0.9 m between them, one with a table.
+inline Floor two_rooms() {
+  std::vector<Wall> walls = rectangle(0, 0, 12, 5);
+  append(walls, {{{6, 0}, {6, 2.55}}, {{6, 3.45}, {6, 5}}});
+  append(walls, rectangle(8, 1.5, 9.5, 2.5));
+  Floor floor{walls, Builder(), {}};
+  for (const Pose2& pose : {Pose2{1, 1, 0.5},
+                            {1, 4, -0.5},
+                            {4.5, 3, 0},
+                            {4.5, 3, 3.1},
+                            {7.5, 3, 0},
+                            {7.5, 3, 3.1},
+                            {11, 1, 2.0},
+                            {11, 4, -2.5}}) {
+    floor.builder.add(walls, pose);
+  }
+  return floor;
+}
+
+/// A corridor that is known from either end.
+inline Floor corridor(double width) {
+  const std::vector<Wall> walls = rectangle(0, 0, 14, width);
+  Floor floor{walls, Builder(), {}};
+  for (double x = 1; x < 14; x += 2) {
+    floor.builder.add(walls, {x, width / 2, 0});
+    floor.builder.add(walls, {x, width / 2, 3.1});
+  }
+  return floor;
+}
+
 }  // namespace helicoid::synthetic

@@ -1,5 +1,6 @@
 // The part of the follower that gets out of another's way: two who meet where neither can pass.
 #include <algorithm>
+#include <numbers>
 
 #include "helicoid/navigation/route_follower.hpp"
 
@@ -19,6 +20,7 @@ constexpr double kWaitAside = 6;            // seconds
 }  // namespace
 
 void RouteFollower::note_trail(const Map& map, const ManifoldPose& robot) {
+  if (giving_way_) return;
   const Pose2 T_plane_robot = map.project(robot);
   if (!trail_.empty()) {
     const ManifoldPose& last = trail_.back().pose;
@@ -61,20 +63,35 @@ void RouteFollower::give_way(const Map& map, const ManifoldPose& robot) {
   if (length > kTrailStep) giving_way_ = std::move(giving);
 }
 
+/// By the way that it went back.
+void RouteFollower::return_to_route() {
+  const auto gone = static_cast<std::ptrdiff_t>(giving_way_->cursor.stretch) + 1;
+  std::vector<ManifoldPoint> points(giving_way_->way.begin(), giving_way_->way.begin() + gone);
+  std::reverse(points.begin(), points.end());
+  const auto on = static_cast<std::ptrdiff_t>(std::min(cursor_.stretch + 1, route_.points.size() - 1));
+  points.insert(points.end(), route_.points.begin() + on, route_.points.end());
+  route_.points = std::move(points);
+  cursor_ = {};
+  const std::size_t retraced = giving_way_->retraced + giving_way_->cursor.stretch;
+  trail_.resize(trail_.size() - std::min(retraced, trail_.size()));
+  giving_way_.reset();
+}
+
 /// The command while the robot gives way; none if it does not, or not any more.
 std::optional<DriveCommand> RouteFollower::step_aside(const Map& map, const ManifoldPose& robot, double dt) {
   if (!giving_way_) return std::nullopt;
   const RouteAhead back = route_ahead(map, giving_way_->way, robot, giving_way_->cursor, kTrailReach);
   giving_way_->cursor = back.cursor;
   const bool is_there = back.left + back.aside < options_.arrived;
-  if (!is_there && giving_way_->waited == 0 && waiting_ < options_.patience) {
+  const double turning_round = std::numbers::pi / options_.top_turn_rate;
+  if (!is_there && giving_way_->waited == 0 && waiting_ < options_.patience + turning_round) {
     return pursue(back.way, back.left + back.aside);
   }
   // There, or not able to get there: looking at where it wants to go.
   giving_way_->waited += dt;
   waiting_ = 0;
   if (giving_way_->waited > kWaitAside) {
-    giving_way_.reset();
+    return_to_route();
     return std::nullopt;
   }
   const RouteAhead ahead = route_ahead(map, route_.points, robot, cursor_, kTrailReach);

@@ -46,13 +46,20 @@ Vector2d direction_of(const Vector2d& p_into, std::span<const Vector2d> left) {
   return moved.norm() > 1e-9 ? Vector2d(moved.normalized()) : Vector2d(Vector2d::Zero());
 }
 
+/// Between beams it has a fraction; outside of the field of view it is less than the first, or more than the last.
+double beam_towards(const Vector2d& p_laser, const LaserModel& laser) {
+  const double middle = laser.first_bearing + 0.5 * laser.field_of_view();
+  const double off = wrap_angle(std::atan2(p_laser.y(), p_laser.x()) - middle);
+  return 0.5 * (laser.beams - 1) + off / laser.bearing_step;
+}
+
 }  // namespace
 
 /// All beams about it go on behind it; what does not come back has not met anything.
 bool MovingObstacles::View::sees_through(const Vector2d& p_odom, const LaserModel& laser) const {
   const Vector2d p_laser = T_odom_laser.inverse() * p_odom;
   const double distance = p_laser.norm();
-  const double middle = (std::atan2(p_laser.y(), p_laser.x()) - laser.first_bearing) / laser.bearing_step;
+  const double middle = beam_towards(p_laser, laser);
   const double beside = std::max(2.0, std::atan2(kBeside, distance) / laser.bearing_step);
   const auto first = static_cast<int>(std::floor(middle - beside));
   const auto last = static_cast<int>(std::ceil(middle + beside));
@@ -66,7 +73,7 @@ bool MovingObstacles::View::sees_through(const Vector2d& p_odom, const LaserMode
 bool MovingObstacles::View::sees_gone(const Vector2d& p_odom, const LaserModel& laser) const {
   if (sees_through(p_odom, laser)) return true;
   const Vector2d p_laser = T_odom_laser.inverse() * p_odom;
-  const double beam = std::round((std::atan2(p_laser.y(), p_laser.x()) - laser.first_bearing) / laser.bearing_step);
+  const double beam = std::round(beam_towards(p_laser, laser));
   if (beam < 0 || beam >= static_cast<double>(ranges.size())) return false;
   const float range = ranges[static_cast<std::size_t>(beam)];
   const double nearer = p_laser.norm() - static_cast<double>(range);
@@ -87,7 +94,7 @@ std::vector<Vector2d> MovingObstacles::View::points(const LaserModel& laser) con
 
 void MovingObstacles::see(const Scan& scan, const LaserModel& laser, double dt) {
   all_.clear();
-  if (!scan.has_odometry) return views_.clear();
+  if (!scan.has_odometry || laser.bearing_step == 0) return views_.clear();
   for (View& view : views_) view.age += dt;
   views_.push_back({scan.T_odom_robot * scan.T_robot_laser, scan.ranges, 0});
   while (views_.size() > 2 && views_[1].age >= kLookBack) views_.pop_front();

@@ -11,12 +11,14 @@ namespace {
 
 constexpr double kReach = 3.0;      // of the route that is looked at, metres
 constexpr double kSlowest = 0.03;   // metres a second
-constexpr double kShortest = 0.12;  // look-ahead, metres
+constexpr double kShortest = 0.18;  // look-ahead, metres
 // Beyond the margin, where the way leaves room for it: lasers measure dark surfaces some centimetres too far off.
 constexpr double kBerth = 0.04;          // metres
 constexpr double kShortestBerth = 0.30;  // look-ahead with a berth, metres
 constexpr double kLookingStep = 0.08;    // between look-aheads that are tried, metres
 constexpr double kTooNear = 0.01;        // beyond the margin, metres
+constexpr double kStep = 0.12;           // aside, metres
+constexpr double kStepAfter = 1.5;       // without getting anywhere, seconds
 constexpr double kStepTurn = 0.2;        // between directions of a step aside, radians
 constexpr double kMostStepTurn = 2.0;    // radians
 constexpr double kShift = 0.02;          // between places beside a target that are tried, metres
@@ -41,6 +43,13 @@ void RouteFollower::follow(ManifoldRoute route, std::optional<ManifoldHeading> h
   heading_ = heading;
   cursor_ = {};
   near_enough_ = false;
+  // The new route begins here: not from where the robot began to go back.
+  if (giving_way_) {
+    giving_way_->way.erase(giving_way_->way.begin(),
+                           giving_way_->way.begin() + static_cast<std::ptrdiff_t>(giving_way_->cursor.stretch));
+    giving_way_->retraced += giving_way_->cursor.stretch;
+    giving_way_->cursor = {};
+  }
 }
 
 void RouteFollower::stop() {
@@ -85,6 +94,7 @@ FollowStep RouteFollower::drive(const Map& map, const ManifoldPose& robot) {
   if (barred || !farthest_free(way, radius(), kShortest)) {
     DetourOptions detour;
     detour.radius = radius() + 0.01;
+    detour.comfortable = std::max(detour.comfortable, detour.radius + 0.1);
     std::vector<Vector2d> round = find_detour(obstacles_, way, detour);
     if (!round.empty()) {
       way = std::move(round);
@@ -144,9 +154,7 @@ std::optional<Vector2d> RouteFollower::first_barred(std::span<const Vector2d> wa
 /// The farthest point of the way to which the robot can go straight, so wide from everything.
 std::optional<Vector2d> RouteFollower::farthest_free(std::span<const Vector2d> way, double wide,
                                                      double shortest) const {
-  const int steps = static_cast<int>((options_.look_ahead - shortest) / kLookingStep + 1e-9);
-  for (int k = 0; k <= steps; ++k) {
-    const double along = options_.look_ahead - k * kLookingStep;
+  for (double along = options_.look_ahead; along >= shortest; along -= kLookingStep) {
     const Vector2d target = point_along(way, along).p;
     if (obstacles_.free_way(target, wide) >= target.norm() - 1e-9) return target;
   }
@@ -156,11 +164,12 @@ std::optional<Vector2d> RouteFollower::farthest_free(std::span<const Vector2d> w
 /// Where the robot stands so near to something that every way on would bring it nearer still: a small step aside, as
 /// little as will do, to where there is room.
 std::optional<Vector2d> RouteFollower::off_what_is_near(std::span<const Vector2d> way) const {
+  if (waiting_ < kStepAfter) return std::nullopt;
   if (obstacles_.clearance({0, 0}, radius() + kTooNear) >= radius() + kTooNear) return std::nullopt;
-  const double ahead = bearing_of(point_along(way, kShortest).p);
+  const double ahead = bearing_of(point_along(way, kStep).p);
   for (double aside = kStepTurn; aside < kMostStepTurn; aside += kStepTurn) {
     for (const double turn : {-aside, aside}) {
-      const Vector2d p = kShortest * Vector2d(std::cos(ahead + turn), std::sin(ahead + turn));
+      const Vector2d p = kStep * Vector2d(std::cos(ahead + turn), std::sin(ahead + turn));
       if (obstacles_.clearance(p, 1) < radius() + kTooNear) continue;
       if (obstacles_.free_way(p, radius()) >= p.norm() - 1e-9) return p;
     }

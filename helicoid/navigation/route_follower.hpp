@@ -68,11 +68,13 @@ class RouteFollower {
   struct GivingWay {
     std::vector<ManifoldPoint> way;
     RouteCursor cursor;
-    double waited = 0;  ///< at its end, seconds
+    std::size_t retraced = 0;  ///< places of the trail that it had gone back over where the way now begins
+    double waited = 0;         ///< at its end, seconds
   };
   void note_trail(const Map& map, const ManifoldPose& robot);
   void note_progress(const Map& map, const ManifoldPose& robot, const Scan& scan, double dt);
   void give_way(const Map& map, const ManifoldPose& robot);
+  void return_to_route();
   [[nodiscard]] double speed_among_movers() const;
   [[nodiscard]] double radius() const { return options_.robot_radius + options_.margin; }
   [[nodiscard]] DriveCommand pursue(std::span<const Vector2d> way, double left);
