@@ -102,6 +102,7 @@ class Exploration {
     was_alive_[robot] = alive;
     was_heard_[robot] = is_heard(robot);
     pilot_.set_reachable(robot, alive && is_heard(robot));
+    (is_heard(robot) ? pilot_ : on_board_[robot]).set_battery(robot, simulation_.battery(robot));
   }
 
   void plan() {

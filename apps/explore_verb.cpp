@@ -25,6 +25,7 @@ struct ExploreArguments {
   std::uint64_t seed = 1;
   int people = 0;
   double longest = 3600;
+  double charge = 0;
   std::string join = "sightings";
   std::string orders;
   int threads = 1;
@@ -34,9 +35,9 @@ struct ExploreArguments {
 };
 
 Json options_json(const ExploreArguments& a) {
-  return {{"world", a.world}, {"robots", a.robots}, {"starts", a.starts},
-          {"seed", a.seed},   {"people", a.people}, {"longest_s", a.longest},
-          {"join", a.join},   {"orders", a.orders}, {"charts", !a.no_charts}};
+  return {{"world", a.world},   {"robots", a.robots},     {"starts", a.starts},   {"seed", a.seed},
+          {"people", a.people}, {"longest_s", a.longest}, {"charge_m", a.charge}, {"join", a.join},
+          {"orders", a.orders}, {"charts", !a.no_charts}};
 }
 
 /// Hands out orders when their time has come.
@@ -82,7 +83,7 @@ int finish(ExploreRun& run, const ExploreJob& job, const ExploreArguments& a) {
   } else {
     print_report(run, written->summary, a, written->pictures);
   }
-  return run.last_plan.finished ? kDone : kNotAsAsked;
+  return run.last_plan.finished && run.last_plan.end_state == EndState::explored ? kDone : kNotAsAsked;
 }
 
 int run_verb(const ExploreArguments& a) {
@@ -93,6 +94,7 @@ int run_verb(const ExploreArguments& a) {
   job.simulation.seed = a.seed;
   job.simulation.people = a.people;
   job.longest = a.longest;
+  if (a.charge > 0) job.simulation.metres_per_charge = job.pilot.explorer.metres_per_charge = a.charge;
   job.pilot.mapper.join_on_evidence = a.join == "evidence";
   StartOptions start_options;
   start_options.robots = a.robots;
@@ -136,6 +138,9 @@ void add_options(CLI::App& verb, ExploreArguments& a) {
   verb.add_option("--people", a.people, "people who walk about")->check(CLI::Range(0, 1000))->capture_default_str();
   verb.add_option("--longest", a.longest, "seconds in the building after which it is over")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--charge", a.charge, "metres that a battery drives: a robot goes home in time; 0: it never runs low")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb.add_option("--join", a.join, "what may join islands")
       ->check(CLI::IsMember({"sightings", "evidence"}))

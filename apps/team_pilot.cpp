@@ -12,6 +12,7 @@ namespace helicoid {
 struct TeamPilot::Member {
   RobotId robot;
   bool reachable = true;
+  double battery = 1;
   ManifoldPose pose;
   ManifoldPoint home;
   Scan scan;
@@ -118,6 +119,9 @@ void TeamPilot::tell_of(const Event& event, const Sighting& sighting) {
 
 void TeamPilot::plan(double now, std::span<const Order> orders) {
   if (members_.empty()) return;
+  for (const Order& order : orders) {
+    if (order.kind == OrderKind::forbid) forbidden_.push_back({order.point.patch, order.region_patch});
+  }
   compare_islands(now);
   note_islands(now);
   note_closures(now);
@@ -129,12 +133,13 @@ void TeamPilot::plan(double now, std::span<const Order> orders) {
     const Timed timed(times_.floor_s);
     neighbours = driven_.add_to(map(), find_neighbours(map()));
     floor_ = NavigableMap(map(), neighbours, options_.navigation, floor_ ? &*floor_ : nullptr);
+    floor_->forbid(forbidden_);
     for (const Member& m : members_) fields.push_back(distances_from(*floor_, m.pose));
   }
   const Timed timed(times_.plan_s);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const Member& m = members_[i];
-    team.push_back({m.robot, m.pose, m.reachable, 1, m.home});
+    team.push_back({m.robot, m.pose, m.reachable, m.battery, m.home});
     travel.emplace_back([&fields, i](const ManifoldPoint& p) { return fields[i].metres_to(p); });
   }
   plan_ = planner_ ? planner_(now, map(), neighbours, travel, team)
@@ -231,6 +236,10 @@ bool TeamPilot::is_let_pass(const Member& blocked, const ManifoldPoint& obstruct
 
 void TeamPilot::set_reachable(std::size_t robot, bool reachable) {
   if (Member* m = member(make_id<RobotId>(robot))) m->reachable = reachable;
+}
+
+void TeamPilot::set_battery(std::size_t robot, double battery) {
+  if (Member* m = member(make_id<RobotId>(robot))) m->battery = battery;
 }
 
 void TeamPilot::note_islands(double now) {

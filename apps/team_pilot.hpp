@@ -64,6 +64,8 @@ class TeamPilot {
   [[nodiscard]] DriveCommand steer(std::size_t robot, double now, double dt);
   /// A robot that cannot be told anything for now, or ever again: what it mapped stays.
   void set_reachable(std::size_t robot, bool reachable);
+  /// 1 full, 0 empty.
+  void set_battery(std::size_t robot, double battery);
 
   [[nodiscard]] const Map& map() const { return mapper_.map(); }
   [[nodiscard]] const Mapper& mapper() const { return mapper_; }
@@ -96,6 +98,7 @@ class TeamPilot {
   Planner planner_;
   DrivenNeighbours driven_;
   std::optional<NavigableMap> floor_;
+  std::vector<ForbiddenFloor> forbidden_;
   std::vector<Member> members_;  ///< those on the map, in the order in which they came
   std::vector<std::size_t> steered_;
   TeamPlan plan_;

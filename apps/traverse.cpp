@@ -84,11 +84,11 @@ class Attempt {
                                            mapping_.simulation().laser(), options_.period);
     traverse_.way.push_back(mapping_.simulation().T_world_robot(0));
     if (mapping_.simulation().collisions() > contacts_) return TraverseEnd::collision;
+    if (now() > traverse_.allowed_s || is_stuck()) return TraverseEnd::late;
     if (step.status == FollowStatus::arrived) {
       if (looks_for_goal()) return std::nullopt;
       return off() <= options_.arrived_m ? TraverseEnd::arrived : TraverseEnd::wrong_place;
     }
-    if (now() > traverse_.allowed_s || is_stuck()) return TraverseEnd::late;
     const bool blocked = step.status == FollowStatus::blocked;
     traverse_.blocked += blocked && !was_blocked_ ? 1 : 0;
     was_blocked_ = blocked;

@@ -61,6 +61,21 @@ TEST(ExploreVerb, ARobotThatIsPausedStandsStill) {
   EXPECT_EQ(Json::parse(ended.out)["patches"], 2);
 }
 
+TEST(ExploreVerb, RobotsComeHomeBeforeTheirBatteriesAreEmpty) {
+  const Sandbox box;
+  const Ended ended =
+      run({"explore", "corridor", "--robots", "2", "--charge", "50", "--json", "--no-charts", "--out", box / "site"});
+  EXPECT_EQ(ended.exit_code, 3) << "frontiers are left" << ended.err;
+  const Json summary = Json::parse(ended.out);
+  EXPECT_EQ(summary["end_state"], "stopped");
+  const Json events = events_of(box / "site");
+  EXPECT_EQ(count(events, "died"), 0U);
+  std::size_t recalled = 0;
+  for (const Json& e : events) recalled += e["text"] == "home: low battery" ? 1 : 0;
+  EXPECT_EQ(recalled, 2U);
+  EXPECT_THAT(summary["reason"].get<std::string>(), testing::Not(testing::HasSubstr("not everybody got home")));
+}
+
 TEST(ExploreVerb, SaysWhatIsWrongWithStartsAndOrders) {
   const Sandbox box;
   const Ended orders = run({"explore", "room", "--orders", box.write("orders", "soon\n"), "--out", box / "site"});

@@ -1,22 +1,8 @@
 #include "helicoid/exploration/orders.hpp"
 
+#include "helicoid/navigation/navigable_map.hpp"
+
 namespace helicoid {
-
-namespace {
-
-/// By the even-odd rule.
-bool lies_in(const std::vector<Vector2d>& ring, const Vector2d& p) {
-  bool inside = false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vector2d& a = ring[i];
-    const Vector2d& b = ring[(i + 1) % ring.size()];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (p.x() < a.x() + (p.y() - a.y()) * (b.x() - a.x()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
-
-}  // namespace
 
 const char* name_of(GoalKind kind) {
   switch (kind) {

@@ -44,7 +44,7 @@ enum class OrderKind : std::uint8_t {
   pause,   ///< stand still until resumed
   resume,  ///< explore again
   home,    ///< return home and stay until resumed
-  forbid,  ///< nobody is sent into the region
+  forbid,  ///< nobody goes into the region
 };
 
 /// What an operator says; in force from then on.

@@ -18,7 +18,7 @@ DistanceField distances_from(const NavigableMap& map, const ManifoldPoint& point
   const std::optional<FloorPlace> place = plan->locate(point);
   const std::optional<FloorPlace> start = place ? standing_near(*plan, *place, plan->options.reach) : std::nullopt;
   if (!start) return {plan, {}};
-  return {plan, search_floor(*plan, *start)};
+  return {plan, search_floor(*plan, *start, std::nullopt, map.forbidden_from(*start))};
 }
 
 DistanceField distances_from(const NavigableMap& map, const ManifoldPose& robot) {

@@ -16,7 +16,8 @@ bool has_room(const NavigableMap& map, const ManifoldPoint& from, const Manifold
   const Vector2d way = end - from.p_patch;
   const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / kStep)));
   for (int k = 0; k <= steps; ++k) {
-    if (map.clearance({from.patch, from.p_patch + way * k / steps}) < map.options().robot_radius) return false;
+    const ManifoldPoint at{from.patch, from.p_patch + way * k / steps};
+    if (map.clearance(at) < map.options().robot_radius || map.is_forbidden(at)) return false;
   }
   return true;
 }

@@ -3,11 +3,21 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "helicoid/navigation/floor_plan.hpp"
 #include "helicoid/navigation/manifold_point.hpp"
 
 namespace helicoid {
+
+/// Where nobody is to go: a part of the plane about a patch, on all sheets.
+struct ForbiddenFloor {
+  PatchId frame;
+  std::vector<Vector2d> ring_patch;  ///< an open ring, in the patch's frame, metres
+};
+/// By the even-odd rule.
+[[nodiscard]] bool lies_in(std::span<const Vector2d> ring, const Vector2d& p);
 
 class NavigableMap {
  public:
@@ -15,6 +25,14 @@ class NavigableMap {
   /// which all that still holds is taken over; not one of a map from before a replay.
   NavigableMap(const Map& map, const Neighbours& neighbours, const NavigationOptions& options = {},
                const NavigableMap* before = nullptr);
+
+  /// From now on no route and no distance leads through these, but from one that starts there.
+  void forbid(std::span<const ForbiddenFloor> regions);
+  /// By number of place (see FloorPlan) as search_floor takes them: what a robot that starts here may not drive
+  /// through.
+  [[nodiscard]] std::vector<bool> forbidden_from(const FloorPlace& start) const;
+
+  [[nodiscard]] bool is_forbidden(const ManifoldPoint& point) const;
 
   [[nodiscard]] const NavigationOptions& options() const { return plan_->options; }
   /// Patches that the snapshot knows: points on newer ones are off the ground.
@@ -33,6 +51,7 @@ class NavigableMap {
 
  private:
   std::shared_ptr<const FloorPlan> plan_;
+  std::vector<bool> forbidden_;  ///< by number of place; empty: nothing is
 };
 
 }  // namespace helicoid

@@ -36,9 +36,11 @@ ManifoldPoint on_patch(const FloorPlan& plan, const WayPoint& point) {
   return {patch, plan.T_plane_patch[patch.index()].inverse() * point.p_plane};
 }
 
-/// By place: closed for now.
-std::vector<bool> closed_places(const FloorPlan& plan, std::span<const ClosedFloor> closed) {
-  std::vector<bool> places(closed.empty() ? 0 : plan.place_count(), false);
+/// By place: closed for now, or forbidden.
+std::vector<bool> closed_places(const NavigableMap& map, const FloorPlace& start, std::span<const ClosedFloor> closed) {
+  const FloorPlan& plan = *map.plan();
+  std::vector<bool> places = map.forbidden_from(start);
+  if (!closed.empty()) places.resize(plan.place_count(), false);
   for (const ClosedFloor& floor : closed) {
     const std::optional<FloorPlace> at = plan.locate(floor.centre);
     if (!at) continue;
@@ -117,7 +119,7 @@ ManifoldRoute plan_route(const NavigableMap& map, const ManifoldPose& from, cons
   const std::optional<FloorPlace> last = stand_at(plan, goal);
   if (!first) return {RouteStatus::start_off_ground, {}, 0};
   if (!last) return {RouteStatus::goal_off_ground, {}, 0};
-  const std::vector<bool> closed_now = closed_places(plan, closed);
+  const std::vector<bool> closed_now = closed_places(map, *first, closed);
   const Vector2d to = map.is_passable(goal) ? map.project(goal) : plan.centre(*last);
   return route_to(map, from, search_floor(plan, *first, last, closed_now), *last, to, closed_now);
 }
@@ -129,7 +131,7 @@ ManifoldRoute plan_route_aside(const NavigableMap& map, const ManifoldPose& from
   if (!first) return {RouteStatus::start_off_ground, {}, 0};
   std::vector<Vector2d> barred;
   for (const ManifoldPoint& point : way) barred.push_back(map.project(point));
-  const std::vector<bool> closed_now = closed_places(plan, closed);
+  const std::vector<bool> closed_now = closed_places(map, *first, closed);
   const FloorSearch search = search_floor(plan, *first, std::nullopt, closed_now);
   std::optional<std::uint32_t> best;
   for (std::uint32_t k = 0; k < search.cost.size(); ++k) {

@@ -127,6 +127,30 @@ TEST(PlanRoute, KeepsAwayFromWhatIsClosedForNow) {
   EXPECT_EQ(plan_route(map, from, goal, {&all_across, 1}).status, RouteStatus::unreachable);
 }
 
+TEST(PlanRoute, KeepsOutOfForbiddenFloorUnlessItStartsThere) {
+  std::vector<Wall> walls = synthetic::rectangle(0, 0, 12, 5);
+  Builder builder;
+  for (const Pose2& pose : {Pose2{1, 2.5, 0}, {11, 2.5, 3.1}}) builder.add(walls, pose);
+  NavigableMap map(builder.map, neighbours_of(builder.map));
+  const ManifoldPose from{PatchId{0}, {}};
+  const ManifoldPoint goal{PatchId{0}, {9, 0}};
+  // Seen from the first patch, which stands at (1, 2.5): all across but for a metre on the left.
+  const ForbiddenFloor region{PatchId{0}, {{3, -3}, {5, -3}, {5, 1.5}, {3, 1.5}}};
+  map.forbid({&region, 1});
+  EXPECT_TRUE(map.is_forbidden({PatchId{0}, {4, 0}}));
+  const ManifoldRoute round = plan_route(map, from, goal);
+  ASSERT_EQ(round.status, RouteStatus::found);
+  EXPECT_GT(round.length, 9.4);
+  EXPECT_NEAR(distances_from(map, from).metres_to(goal), round.length, 0.6);
+  for (const ManifoldPoint& point : round.points) EXPECT_FALSE(map.is_forbidden(point));
+  EXPECT_EQ(plan_route(map, {PatchId{0}, {4, 0, 0}}, goal).status, RouteStatus::found);
+  const ForbiddenFloor all_across{PatchId{0}, {{3, -3}, {5, -3}, {5, 3}, {3, 3}}};
+  map.forbid({&all_across, 1});
+  EXPECT_EQ(plan_route(map, from, goal).status, RouteStatus::unreachable);
+  map.forbid({});
+  EXPECT_LT(plan_route(map, from, goal).length, 9.1);
+}
+
 /// A corridor of 1 m by 12 m with a niche of 1 m by 1.5 m on its left, 5 m along.
 struct CorridorWithNiche {
   std::vector<Wall> walls{{{0, 0}, {12, 0}},    {{12, 0}, {12, 1}}, {{12, 1}, {6, 1}}, {{6, 1}, {6, 2.5}},

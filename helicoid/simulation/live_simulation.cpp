@@ -31,6 +31,7 @@ Result<LiveSimulation> LiveSimulation::make(const World& world, std::vector<Live
                                             const LiveOptions& options) {
   if (robots.empty()) return fail("a simulation needs at least one robot");
   if (!(options.period > 0) || !(options.radius > 0)) return fail("a simulation's period and radius must be above 0");
+  if (!(options.metres_per_charge > 0)) return fail("a battery must drive some way: metres_per_charge is above 0");
   const RayCaster walls(world.walls);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const Vector2d at = robots[i].T_world_start.translation();
@@ -124,6 +125,7 @@ void LiveSimulation::drive(std::size_t robot, double dt) {
                  towards(body.wheels.turn_rate, body.command.turn_rate, options_.turn_acceleration * dt)};
   const Vector3d motion = dt * Vector3d(body.wheels.speed, 0, body.wheels.turn_rate);
   body.odometer.count(exponential(motion), body.random);
+  body.driven += std::abs(dt * body.wheels.speed);
   const Pose2 before = body.T_world_robot;
   Pose2 after = before * exponential(motion);
   if (!things_within(robot, after.translation(), 0).empty()) {

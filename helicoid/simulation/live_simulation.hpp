@@ -33,6 +33,8 @@ struct LiveOptions {
   double top_turn_rate = 1.0;    ///< radians / second
   double acceleration = 1.0;     ///< metres / second^2
   double turn_acceleration = 3;  ///< radians / second^2
+  /// A full battery drives so far, metres; a robot whose battery is empty stands there, silent.
+  double metres_per_charge = std::numeric_limits<double>::infinity();
   LaserNoise laser_noise;
   OdometryNoise odometry_noise;
   int people = 0;                           ///< that walk about on the floor that robots can reach
@@ -69,6 +71,10 @@ class LiveSimulation {
   [[nodiscard]] const Pose2& T_world_robot(std::size_t robot) const { return bodies_[robot].T_world_robot; }
   /// It has joined and has not died.
   [[nodiscard]] bool alive(std::size_t robot) const { return bodies_[robot].joined && !is_dead(robot); }
+  /// 1 full, 0 empty.
+  [[nodiscard]] double battery(std::size_t robot) const {
+    return std::max(0.0, 1 - bodies_[robot].driven / options_.metres_per_charge);
+  }
   [[nodiscard]] const LaserModel& laser() const { return laser_; }
 
   /// A robot came upon something. What touches counts once until it has let go, however long it pushes.
@@ -91,6 +97,7 @@ class LiveSimulation {
     DriveCommand wheels = {};           ///< what they do now
     Vector3d twist = Vector3d::Zero();  ///< of the robot in its own frame, metres and radians a second
     bool joined = false;
+    double driven = 0;  ///< by its wheels, metres
   };
   /// What a robot can come upon: the walls, another robot, a person.
   struct Thing {
@@ -101,7 +108,7 @@ class LiveSimulation {
   /// `floor`: places that people walk about.
   LiveSimulation(const World& world, std::vector<LiveRobot> robots, const LiveOptions& options,
                  std::vector<Vector2d> floor);
-  [[nodiscard]] bool is_dead(std::size_t robot) const { return now() >= plan_[robot].dies_at; }
+  [[nodiscard]] bool is_dead(std::size_t robot) const { return now() >= plan_[robot].dies_at || battery(robot) <= 0; }
   void join_robots();
   void walk_people(double dt);
   void drive(std::size_t robot, double dt);

@@ -195,5 +195,23 @@ TEST(LiveSimulation, RefusesStartsWhereNoRobotFits) {
   EXPECT_TRUE(LiveSimulation::make(box(), {{{0, 0, 0}}, {{0.3, 0, 0}, 60}}, {}).has_value());
 }
 
+TEST(LiveSimulation, ARobotWhoseBatteryIsEmptyStandsThereSilent) {
+  LiveOptions options = exact();
+  options.metres_per_charge = 2;
+  LiveSimulation simulation = simulate(box(), {{{-4, 0, 0}}, {{-4, 2, 0}}}, options);
+  simulation.command(0, {0.5, 0});
+  EXPECT_EQ(simulation.battery(0), 1);
+  std::ignore = run(simulation, 2);
+  EXPECT_GT(simulation.battery(0), 0.4);
+  EXPECT_LT(simulation.battery(0), 0.8);
+  EXPECT_TRUE(simulation.alive(0));
+  std::ignore = run(simulation, 4);
+  EXPECT_EQ(simulation.battery(0), 0);
+  EXPECT_FALSE(simulation.alive(0));
+  EXPECT_TRUE(simulation.alive(1));
+  EXPECT_NEAR(simulation.T_world_robot(0).x, -2, 0.06);
+  for (const LiveEvent& e : run(simulation, 2)) EXPECT_EQ(e.event.robot.index(), 1U);
+}
+
 }  // namespace
 }  // namespace helicoid
