@@ -41,11 +41,6 @@ class PlanarFloor {
   [[nodiscard]] bool passable(std::size_t cell) const { return clearance(cell) >= least_clearance(); }
   /// From a cell's centre to the centre of one that is not free: the surface may lie nearer by half a cell.
   [[nodiscard]] double least_clearance() const { return options_.least_clearance() + 0.5 * frame_.resolution; }
-  /// What a metre costs there, as on the manifold.
-  [[nodiscard]] double cost_factor(std::size_t cell) const {
-    const double room = options_.comfortable - least_clearance();
-    return 1 + options_.discomfort * std::clamp((options_.comfortable - clearance(cell)) / room, 0.0, 1.0);
-  }
   [[nodiscard]] std::optional<std::size_t> cell(const Vector2d& p) const {
     const Vector2d at = frame_.to_cells(p);
     const int column = static_cast<int>(std::floor(at.x()));

@@ -55,6 +55,11 @@ void SvgDrawing::rectangle(const Vector2d& corner, const Vector2d& size, charts:
       corner.x(), corner.y(), size.x(), size.y(), fill, opacity);
 }
 
+void SvgDrawing::area(std::string_view path, charts::Colour fill) {
+  fmt::format_to(std::back_inserter(svg_), "<path d=\"{}\" fill=\"#{:06x}\" shape-rendering=\"crispEdges\"/>\n", path,
+                 fill);
+}
+
 void SvgDrawing::disc(const Vector2d& centre, double radius, charts::Colour fill, double opacity) {
   fmt::format_to(std::back_inserter(svg_),
                  "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"#{:06x}\" opacity=\"{:.3g}\"/>\n", centre.x(),

@@ -31,6 +31,8 @@ class SvgDrawing {
   void line(const Vector2d& from, const Vector2d& to, const Stroke& stroke);
   void polyline(std::span<const Vector2d> points, const Stroke& stroke, bool closed = false);
   void rectangle(const Vector2d& corner, const Vector2d& size, charts::Colour fill, double opacity = 1);
+  /// What SVG's path data encloses.
+  void area(std::string_view path, charts::Colour fill);
   void disc(const Vector2d& centre, double radius, charts::Colour fill, double opacity = 1);
   void text(const Vector2d& at, std::string_view words, const TextStyle& style = {});
 

@@ -1,34 +1,64 @@
 // Does a team that enters a building by two doors map it on its own? (Paper VI, fig. 6.)
 #include <algorithm>
-#include <memory>
+#include <iterator>
 
 #include "apps/experiments/list.hpp"
 #include "apps/explore_quality.hpp"
 #include "apps/explore_run.hpp"
+#include "apps/grid_picture.hpp"
+#include "helicoid/charts/occupancy_grid.hpp"
 
 namespace helicoid {
 
 namespace {
 
 constexpr std::size_t kRobots = 4;
+constexpr double kOneDoor = 3;  // between starts at one door at most, metres
+
+/// Accepted sightings of robots that began at different doors.
+std::vector<Hypothesis> sightings_across(const World& world, const Mapper& mapper) {
+  const auto start = [&](PatchId id) { return world.starts[mapper.map().patch(id).robot.index()].translation(); };
+  std::vector<Hypothesis> across;
+  std::copy_if(mapper.ledger().begin(), mapper.ledger().end(), std::back_inserter(across), [&](const Hypothesis& h) {
+    return h.source == HypothesisSource::sighting && h.state == HypothesisState::accepted &&
+           (start(h.a) - start(h.b)).norm() > kOneDoor;
+  });
+  return across;
+}
 
 /// Fig. 6 (c) and (d): the sketch of each island with its topological map.
-void draw(const Map& map, const std::string& name, std::vector<ExperimentPicture>& pictures) {
+void draw(const Map& map, const std::string& name, const std::string& remark,
+          std::vector<ExperimentPicture>& pictures) {
   const MapReport report = report_on(map, true);
   for (std::size_t i = 0; i < report.islands.size(); ++i) {
     SketchDrawing drawing = draw_sketch(map, report, report.islands[i], 1);
-    drawing.title = fmt::format("{}", fmt::join(report.islands[i].robots, ", "));
+    drawing.title = fmt::format("{}{}", fmt::join(report.islands[i].robots, ", "), remark);
     pictures.push_back({fmt::format("{}-{}", name, i + 1), to_svg(drawing)});
   }
 }
 
-/// The same run once more, up to the last moment of two islands.
-Result<std::vector<ExperimentPicture>> draw_before(const World& world, std::uint64_t seed, double merged_at) {
+/// Fig. 6 (b).
+ExperimentPicture draw_grid_of(const Map& map) {
+  const auto islands = map.islands();
+  const std::vector<PatchId>& patches = islands.front().patches;
+  GridFrameOptions options;
+  options.resolution = 0.1;
+  return {"grid", draw_grid(draw_occupancy(map, patches, frame_around(map, patches, options)))};
+}
+
+/// The same run once more, as far as the merge: the last moment of two islands, and the first of one.
+Result<std::vector<ExperimentPicture>> draw_merge(const World& world, std::uint64_t seed, double merged_at) {
   std::vector<ExperimentPicture> pictures;
   ExploreJob job = explore_from_starts(world, kRobots, seed);
   job.observer = [&](double now, const LiveSimulation&, const TeamPilot& pilot, const SimulatedRecording&) {
-    if (now + 1.5 * job.plan_period < merged_at) return true;
-    draw(pilot.map(), "before", pictures);
+    const Map& map = pilot.map();
+    if (pictures.empty() && now + 1.5 * job.plan_period >= merged_at) draw(map, "before", "", pictures);
+    if (now < merged_at) return true;
+    const std::vector<Hypothesis> across = sightings_across(world, pilot.mapper());
+    const auto name = [&](PatchId id) { return map.robot(map.patch(id).robot).name; };
+    const std::string remark =
+        across.empty() ? "" : fmt::format("; {} and {} have seen each other", name(across[0].a), name(across[0].b));
+    draw(map, "merged", remark, pictures);
     return false;
   };
   const Result<ExploreRun> run = run_exploration(job);
@@ -59,14 +89,10 @@ Result<Entered> enter(const World& world, std::uint64_t seed) {
   return Entered{std::move(*run), most_islands, merged_at};
 }
 
-std::vector<Metric> metrics_of(const Entered& entered, const MapQuality& quality) {
+std::vector<Metric> metrics_of(const World& world, const Entered& entered, const MapQuality& quality) {
   const ExploreRun& run = entered.run;
-  const Ledger& ledger = run.map.mapper.ledger();
-  const auto sightings = std::count_if(ledger.begin(), ledger.end(), [](const Hypothesis& h) {
-    return h.source == HypothesisSource::sighting && h.state == HypothesisState::accepted;
-  });
   return {{"islands_before_count", static_cast<double>(entered.most_islands)},
-          {"sightings_count", static_cast<double>(sightings)},
+          {"sightings_count", static_cast<double>(sightings_across(world, run.map.mapper).size())},
           {"merges_count", static_cast<double>(run.merges)},
           {"islands_after_count", static_cast<double>(run.map.mapper.map().islands().size())},
           {"explored_count", run.last_plan.end_state == EndState::explored ? 1.0 : 0.0},
@@ -89,12 +115,13 @@ Result<Outcome> explore_by_two_doors(std::uint64_t seed) {
       BuildingTruth::of(*world, std::span(world->starts).first(kRobots), LiveOptions{}.radius);
   if (!truth) return tl::unexpected(truth.error());
   const Map& map = entered->run.map.mapper.map();
-  Outcome outcome{metrics_of(*entered, truth->judge(map, entered->run.recording.tracks())), {}};
+  Outcome outcome{metrics_of(*world, *entered, truth->judge(map, entered->run.recording.tracks())), {}};
   if (seed != 1) return outcome;
-  Result<std::vector<ExperimentPicture>> before = draw_before(*world, seed, entered->merged_at);
-  if (!before) return tl::unexpected(before.error());
-  outcome.pictures = std::move(*before);
-  draw(map, "after", outcome.pictures);
+  Result<std::vector<ExperimentPicture>> merge = draw_merge(*world, seed, entered->merged_at);
+  if (!merge) return tl::unexpected(merge.error());
+  outcome.pictures = std::move(*merge);
+  draw(map, "after", "", outcome.pictures);
+  outcome.pictures.push_back(draw_grid_of(map));
   return outcome;
 }
 
@@ -110,7 +137,8 @@ Experiment fig6_experiment() {
       "somebody sees somebody of the other door. Mapped: of the floor that a robot can reach. Walls: from all occupied "
       "cells to the true walls after one rigid alignment, RMS, and the share of the walls in view that have an "
       "occupied cell within 10 cm. Collisions are any contact. Real time: seconds in the building for one of CPU, the "
-      "simulation's own included. The pictures show the islands and the topological map before and after the merge.";
+      "simulation's own included. Sightings: of a robot of the other door. The pictures show the islands and the "
+      "topological map before the merge, right after it and at the end, and the final occupancy grid.";
   e.bars = {{"islands_before_count", 2.0, 2.0, false},
             {"sightings_count", 1.0, std::nullopt, false},
             {"merges_count", 1.0, 1.0, false},

@@ -227,9 +227,10 @@ Experiment retro_traverse_experiment() {
       "top speed and its bends at top turn rate). The moments are stratified: while no more than half of a course's "
       "traverses so far had more than one sheet, it explores on before the next row, four minutes at most, until the "
       "map has. Planar: the same from the same state, on one occupancy grid "
-      "of 5 cm of all patches at the same poses: the way of least cost by the same law that keeps the same "
-      "clearance (A*), pulled taut, with the same follower and avoidance, and planned again whenever the robot is "
-      "blocked. In a bare corridor nothing but odometry tells how far along a robot is: what arrives there is "
+      "of 5 cm of all patches at the same poses: the shortest way that keeps the same clearance (A*), pulled "
+      "taut, with the same follower and avoidance, turning about on arrival as on the manifold, and planned again "
+      "whenever the robot is blocked. In a bare corridor nothing but odometry tells how far along a robot is: what "
+      "arrives there is "
       "reported, and not asked for.";
   e.bars = {{"arrived_percent", 100.0, std::nullopt, false},
             {"with_sheets_percent", 33.3, std::nullopt, true},
