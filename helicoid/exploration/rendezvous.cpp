@@ -70,7 +70,8 @@ std::optional<Posts> find_posts(const Map& map, const Doubt& doubt, const Travel
       const Pose2 T_b_shown = T_b_a * Pose2{p_a.x(), p_a.y(), bearing + std::numbers::pi};
       if (!is_ground(map.patch(doubt.b), T_b_shown.translation())) continue;
       if (!std::isfinite(to_b({doubt.b, T_b_shown.translation()}))) continue;
-      const double chance = view_chance(map, doubt, {}, T_b_shown, options.sighting, options.standing);
+      const double chance =
+          view_chance(map, doubt, {}, T_b_shown, options.sighting, {options.standing, options.standing});
       if (!best || chance > best->chance) best = Posts{{}, T_b_shown, chance};
       if (best->chance > 0.995) return best;
     }
@@ -195,11 +196,17 @@ std::optional<Settled> RendezvousDesk::judge(double now, const Map& map, Meeting
     return settled;
   }
   if (looks < options_.least_looks) return std::nullopt;
-  const auto on = [&](PatchId patch, std::size_t member) {
-    return map.T_plane_patch(patch).inverse() * map.project(members[member].pose);
+  const ManifoldPose& watcher = members[meeting.watcher].pose;
+  const ManifoldPose& shown = members[meeting.shown].pose;
+  const auto [a, b] = std::pair{meeting.doubt.a, meeting.doubt.b};
+  const auto noise_watcher = standing_beside(map, a, watcher, options_.standing);
+  const auto noise_shown = standing_beside(map, b, shown, options_.standing);
+  if (!noise_watcher || !noise_shown) return std::nullopt;
+  const auto on = [&](PatchId patch, const ManifoldPose& robot) {
+    return map.T_plane_patch(patch).inverse() * map.project(robot);
   };
-  const double view = view_chance(map, meeting.doubt, on(meeting.doubt.a, meeting.watcher),
-                                  on(meeting.doubt.b, meeting.shown), options_.sighting, options_.standing);
+  const double view =
+      view_chance(map, meeting.doubt, on(a, watcher), on(b, shown), options_.sighting, {*noise_watcher, *noise_shown});
   settled.chance = sighting_chance(view, options_.sighting, looks);
   if (settled.chance < options_.sure) return std::nullopt;
   settled.outcome = MeetingOutcome::absent;

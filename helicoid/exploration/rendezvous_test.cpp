@@ -167,6 +167,36 @@ TEST(Rendezvous, AbsenceDoesNotCountWhereTheRobotMightHaveBeenOutOfView) {
   for (double now = 5; now < 20; now += 1) EXPECT_THAT(rooms.step(now), IsEmpty());
 }
 
+TEST(Rendezvous, AbsenceDoesNotCountWhereTheMapDoesNotKnowWhereTheRobotStood) {
+  TwoRooms rooms;
+  const PatchId beside = rooms.builder.add(synthetic::rectangle(0, 0, 8, 6), {1.5, 3, 0});
+  const Posts posts = rooms.begin();
+  rooms.stand(posts);
+  rooms.members[0].pose.patch = beside;
+  for (double now = 5; now < 20; now += 1) EXPECT_THAT(rooms.step(now), IsEmpty()) << "no relation ties it down";
+}
+
+TEST(StandingBeside, IsAsSureAsTheMapIsOfWhereTheRobotsPatchLies) {
+  const StandingNoise on_its_sheet;
+  double before = on_its_sheet.position;
+  for (const double information : {1e4, 100.0, 1.0}) {
+    Builder builder;
+    const auto walls = synthetic::rectangle(0, 0, 8, 6);
+    const PatchId a = builder.add(walls, {1.5, 3, 0});
+    const PatchId b = builder.add(walls, {1.5, 3, 0});
+    const PatchId loose = builder.add(walls, {1.5, 3, 0});
+    EXPECT_EQ(standing_beside(builder.map, a, {a, {}}, on_its_sheet)->position, on_its_sheet.position);
+    EXPECT_FALSE(standing_beside(builder.map, a, {b, {}}, on_its_sheet).has_value()) << "no relation ties them";
+    builder.relate(a, b, RelationKind::overlap, Vector3d::Constant(information));
+    builder.relate(b, loose);
+    const StandingNoise noise = *standing_beside(builder.map, a, {b, {}}, on_its_sheet);
+    EXPECT_GT(noise.position, before);
+    EXPECT_GT(noise.position, std::sqrt(1 / information));
+    EXPECT_GT(noise.heading, on_its_sheet.heading);
+    before = noise.position;
+  }
+}
+
 TEST(Rendezvous, AMeetingThatDoesNotComeAboutIsGivenUpAfterAFewTries) {
   TwoRooms rooms;
   double now = 0;

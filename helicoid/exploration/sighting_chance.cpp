@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "helicoid/base/random.hpp"
+#include "helicoid/manifold/stated_confidence.hpp"
 
 namespace helicoid {
 
@@ -33,21 +34,37 @@ Matrix3d root_of(const Matrix3d& covariance) {
 
 }  // namespace
 
+std::optional<StandingNoise> standing_beside(const Map& map, PatchId patch, const ManifoldPose& robot,
+                                             const StandingNoise& on_its_sheet) {
+  if (robot.patch == patch) return on_its_sheet;
+  const auto islands = map.islands();
+  const auto island =
+      std::find_if(islands.begin(), islands.end(), [&](const Island& i) { return i.id == map.island_of(patch); });
+  if (map.island_of(robot.patch) != island->id) return std::nullopt;
+  const StatedConfidence stated(map, *island);
+  if (!stated.is_determined()) return std::nullopt;
+  const Matrix3d said = stated.between(patch, robot.patch).covariance;
+  // Along either axis of the ellipse as along its longer one, and what a heading is off turns the robot's place.
+  const double lever = robot.T_patch_robot.distance() * std::sqrt(said(2, 2));
+  const double position = std::sqrt(said.topLeftCorner<2, 2>().trace());
+  return StandingNoise{std::hypot(on_its_sheet.position, position, lever),
+                       std::hypot(on_its_sheet.heading, std::sqrt(said(2, 2)))};
+}
+
 double view_chance(const Map& map, const Doubt& doubt, const Pose2& T_a_watcher, const Pose2& T_b_shown,
-                   const SightingModel& model, const StandingNoise& noise, std::uint64_t seed) {
+                   const SightingModel& model, const PairsNoise& noise, std::uint64_t seed) {
   Random random(seed);
   const Matrix3d root = root_of(doubt.T_a_b.covariance);
-  const auto disturbed = [&](const Pose2& pose) {
-    return pose *
-           Pose2{noise.position * random.normal(), noise.position * random.normal(), noise.heading * random.normal()};
+  const auto disturbed = [&](const Pose2& pose, const StandingNoise& by) {
+    return pose * Pose2{by.position * random.normal(), by.position * random.normal(), by.heading * random.normal()};
   };
   const Patch& a = map.patch(doubt.a);
   int seen = 0;
   for (int i = 0; i < kSamples; ++i) {
     const Vector3d error = root * Vector3d(random.normal(), random.normal(), random.normal());
     const Pose2 T_a_b = Pose2::from_vector(doubt.T_a_b.T_a_b.vector() + error);
-    const Pose2 watcher = disturbed(T_a_watcher);
-    const Vector2d shown = (T_a_b * disturbed(T_b_shown)).translation();
+    const Pose2 watcher = disturbed(T_a_watcher, noise.watcher);
+    const Vector2d shown = (T_a_b * disturbed(T_b_shown, noise.shown)).translation();
     const Vector2d view = watcher.inverse() * shown;
     const bool in_view =
         view.norm() <= model.range && std::abs(std::atan2(view.y(), view.x())) <= model.field_of_view / 2;

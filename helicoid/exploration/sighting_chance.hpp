@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "helicoid/geometry/covariance.hpp"
 #include "helicoid/manifold/map.hpp"
@@ -31,10 +32,20 @@ struct StandingNoise {
   double heading = 0.03;   ///< radians
 };
 
+/// Of the two of a meeting.
+struct PairsNoise {
+  StandingNoise watcher, shown;
+};
+
+/// Beside a patch's place: what a robot does not know on its own sheet, and what the map does not know of where its
+/// patch lies from that one. None if the map says nothing of that.
+[[nodiscard]] std::optional<StandingNoise> standing_beside(const Map& map, PatchId patch, const ManifoldPose& robot,
+                                                           const StandingNoise& on_its_sheet);
+
 /// The chance that the robot at T_a_watcher has the robot at T_b_shown in view, if the doubt's two places are one:
 /// within range, ahead, and with nothing that patch a knows between them; over what is uncertain of the poses.
 [[nodiscard]] double view_chance(const Map& map, const Doubt& doubt, const Pose2& T_a_watcher, const Pose2& T_b_shown,
-                                 const SightingModel& model, const StandingNoise& noise, std::uint64_t seed = 1);
+                                 const SightingModel& model, const PairsNoise& noise, std::uint64_t seed = 1);
 
 /// The chance that it has seen it at least once after so many looks.
 [[nodiscard]] double sighting_chance(double view_chance, const SightingModel& model, int looks);
