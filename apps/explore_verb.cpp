@@ -61,9 +61,9 @@ std::function<std::vector<Order>(double, const Map&)> order_giver(std::vector<Ti
 
 void print_report(const ExploreRun& run, const Json& summary, const ExploreArguments& a,
                   const std::vector<std::string>& files) {
-  fmt::print("end        {}: {}\n", run.end_state, run.reason);
-  fmt::print("mapped     {:.1f} of {:.1f} m2 that robots can reach ({:.2f} %)\n", summary["mapped_m2"].get<double>(),
-             summary["reachable_m2"].get<double>(), 100 * summary["mapped_fraction"].get<double>());
+  fmt::print("end        {}: {}\n", run.end_state, summary["reason"].get<std::string>());
+  fmt::print("mapped     {:.2f} % of the floor that robots can reach\n",
+             100 * summary["mapped_fraction"].get<double>());
   fmt::print("walls      {:.3f} m RMS, {:.1f} % of those in view\n", summary["wall_rms_m"].get<double>(),
              100 * summary["wall_recall"].get<double>());
   fmt::print("islands    {} at the end, {} merges; {} collisions\n", summary["island_count"].get<std::size_t>(),

@@ -30,6 +30,8 @@ TEST(ExploreVerb, ATeamMapsARoomAndComesHome) {
   const Json summary = Json::parse(ended.out);
   EXPECT_EQ(summary["end_state"], "explored");
   EXPECT_GE(summary["mapped_fraction"], 0.97);
+  EXPECT_THAT(summary["reason"].get<std::string>(),
+              testing::ContainsRegex("^[0-9.]+ of [0-9.]+ m2 reachable; no frontier"));
   EXPECT_EQ(summary["collisions"], 0);
   EXPECT_EQ(summary["operator_actions"], 0);
   EXPECT_EQ(summary["island_count"], 1);
