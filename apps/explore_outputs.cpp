@@ -31,26 +31,26 @@ Json frontiers_json(const Map& map, const TeamPlan& plan) {
 
 /// What `explore` says beyond what `map` does.
 Json exploration_json(const ExploreRun& run, const MapQuality& quality) {
-  return {
-      {"end_state", run.end_state},
-      {"reason", fmt::format("{:.1f} of {:.1f} m2 reachable; {}", quality.mapped_m2, quality.reachable_m2, run.reason)},
-      {"reachable_m2", rounded(quality.reachable_m2, 100)},
-      {"mapped_m2", rounded(quality.mapped_m2, 100)},
-      {"mapped_fraction", rounded(quality.mapped_fraction, 1e5)},
-      {"collisions", run.contacts.size()},
-      {"merges", run.merges},
-      {"operator_actions", run.operator_actions},
-      {"sim_s", rounded(run.sim_s, 1000)},
-      {"realtime_factor", rounded(run.realtime_factor(), 100)},
-      {"wall_rms_m", rounded(quality.wall_rms_m, 1e4)},
-      {"wall_recall", rounded(quality.wall_recall, 1e4)},
-      {"frontiers_left", frontiers_json(run.map.mapper.map(), run.last_plan)},
-      {"explore_cpu_s",
-       {{"map", rounded(run.times.map_s, 1000)},
-        {"floor", rounded(run.times.floor_s, 1000)},
-        {"plan", rounded(run.times.plan_s, 1000)},
-        {"steer", rounded(run.times.steer_s, 1000)},
-        {"simulate", rounded(run.sim_cpu_s, 1000)}}}};
+  const std::string area = fmt::format("{:.1f} of {:.1f} m2", quality.mapped_m2, quality.reachable_m2);
+  return {{"end_state", run.end_state},
+          {"reason", fmt::format("{} reachable; {}", area, run.reason)},
+          {"reachable_m2", rounded(quality.reachable_m2, 100)},
+          {"mapped_m2", rounded(quality.mapped_m2, 100)},
+          {"mapped_fraction", rounded(quality.mapped_fraction, 1e5)},
+          {"collisions", run.contacts.size()},
+          {"merges", run.merges},
+          {"operator_actions", run.operator_actions},
+          {"sim_s", rounded(run.sim_s, 1000)},
+          {"realtime_factor", rounded(run.realtime_factor(), 100)},
+          {"wall_rms_m", rounded(quality.wall_rms_m, 1e4)},
+          {"wall_recall", rounded(quality.wall_recall, 1e4)},
+          {"frontiers_left", frontiers_json(run.map.mapper.map(), run.last_plan)},
+          {"explore_cpu_s",
+           {{"map", rounded(run.times.map_s, 1000)},
+            {"floor", rounded(run.times.floor_s, 1000)},
+            {"plan", rounded(run.times.plan_s, 1000)},
+            {"steer", rounded(run.times.steer_s, 1000)},
+            {"simulate", rounded(run.sim_cpu_s, 1000)}}}};
 }
 
 }  // namespace
