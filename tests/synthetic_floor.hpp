@@ -113,22 +113,21 @@ struct Floor {
   }
 };
 
+/// A building that was mapped from these poses.
+inline Floor mapped_from(std::span<const Pose2> poses, std::vector<Wall> walls) {
+  Floor floor{std::move(walls), Builder(), {}};
+  for (const Pose2& pose : poses) floor.builder.add(floor.walls, pose);
+  return floor;
+}
+
 /// Two rooms with a door of 0.9 m between them, one with a table.
 inline Floor two_rooms() {
   std::vector<Wall> walls = rectangle(0, 0, 12, 5);
   append(walls, {{{6, 0}, {6, 2.55}}, {{6, 3.45}, {6, 5}}});
   append(walls, rectangle(8, 1.5, 9.5, 2.5));
-  Floor floor{walls, Builder(), {}};
-  for (const Pose2& pose : {Pose2{1, 1, 0.5},
-                            {1, 4, -0.5},
-                            {4.5, 3, 0},
-                            {4.5, 3, 3.1},
-                            {7.5, 3, 0},
-                            {7.5, 3, 3.1},
-                            {11, 1, 2.0},
-                            {11, 4, -2.5}}) {
-    floor.builder.add(walls, pose);
-  }
+  const Pose2 poses[] = {Pose2{1, 1, 0.5}, {1, 4, -0.5},  {4.5, 3, 0},  {4.5, 3, 3.1},
+                         {7.5, 3, 0},      {7.5, 3, 3.1}, {11, 1, 2.0}, {11, 4, -2.5}};
+  Floor floor = mapped_from(poses, walls);
   return floor;
 }
 

@@ -12,6 +12,7 @@ using synthetic::Builder;
 using synthetic::corridor;
 using synthetic::Driver;
 using synthetic::Floor;
+using synthetic::mapped_from;
 using synthetic::two_rooms;
 using synthetic::Wall;
 
@@ -29,8 +30,8 @@ TEST(RobotsThatMeet, DoNotTouchWhereTheirWaysComeTogether) {
   const std::vector<Wall> walls = synthetic::rectangle(0, 0, 8, 6);
   Random random(4);
   for (int round = 0; round < 40; ++round) {
-    Floor floor{walls, Builder(), {}};
-    for (const Pose2& pose : {Pose2{1, 1, 0.7}, {7, 5, -2.4}, {4, 3, 0}}) floor.builder.add(walls, pose);
+    const Pose2 poses[] = {Pose2{1, 1, 0.7}, {7, 5, -2.4}, {4, 3, 0}};
+    Floor floor = mapped_from(poses, walls);
     // Side by side, each bound for where the other's side leads to.
     const double apart = random.uniform(0.6, 2.0);
     const double y = random.uniform(2.2, 3.8);
@@ -78,18 +79,9 @@ TEST(RobotsThatMeet, GetOutOfAPassageThatHasRoomForOne) {
   walls = {{{0, 0}, {4, 0}},     {{4, 0}, {4, 1.5}}, {{4, 1.5}, {9, 1.5}}, {{9, 1.5}, {9, 0}},
            {{9, 0}, {13, 0}},    {{13, 0}, {13, 4}}, {{13, 4}, {9, 4}},    {{9, 4}, {9, 2.4}},
            {{9, 2.4}, {4, 2.4}}, {{4, 2.4}, {4, 4}}, {{4, 4}, {0, 4}},     {{0, 4}, {0, 0}}};
-  Floor floor{walls, Builder(), {}};
-  for (const Pose2& pose : {Pose2{1, 1, 0.3},
-                            {1, 3, -0.3},
-                            {3, 2, 0},
-                            {3, 2, 3.1},
-                            {6.5, 1.95, 0},
-                            {6.5, 1.95, 3.1},
-                            {10, 2, 0},
-                            {10, 2, 3.1},
-                            {12, 3, 3.1}}) {
-    floor.builder.add(walls, pose);
-  }
+  const Pose2 poses[] = {Pose2{1, 1, 0.3}, {1, 3, -0.3}, {3, 2, 0},    {3, 2, 3.1}, {6.5, 1.95, 0},
+                         {6.5, 1.95, 3.1}, {10, 2, 0},   {10, 2, 3.1}, {12, 3, 3.1}};
+  Floor floor = mapped_from(poses, walls);
   floor.send({1, 2, 0}, {12, 2}, 0);
   floor.send({12, 2, 3.1}, {1, 2}, 1);
   EXPECT_LT(floor.run(200), 150);
@@ -103,18 +95,9 @@ TEST(RobotsThatMeet, ComeBackRoundACornerToWhereTheyGaveWay) {
   const std::vector<Wall> walls = {
       {{0, 0}, {4, 0}},   {{4, 0}, {4, 1.5}},   {{4, 1.5}, {7.9, 1.5}}, {{7.9, 1.5}, {7.9, 9}}, {{7.9, 9}, {7, 9}},
       {{7, 9}, {7, 2.4}}, {{7, 2.4}, {4, 2.4}}, {{4, 2.4}, {4, 4}},     {{4, 4}, {0, 4}},       {{0, 4}, {0, 0}}};
-  Floor floor{walls, Builder(), {}};
-  for (const Pose2& pose : {Pose2{1, 1, 0.3},
-                            {1, 3, -0.3},
-                            {3, 2, 0},
-                            {3, 2, 3.1},
-                            {6, 1.95, 0},
-                            {6, 1.95, 3.1},
-                            {7.45, 2, 1.57},
-                            {7.45, 5, 1.57},
-                            {7.45, 5, -1.57}}) {
-    floor.builder.add(walls, pose);
-  }
+  const Pose2 poses[] = {Pose2{1, 1, 0.3}, {1, 3, -0.3},    {3, 2, 0},       {3, 2, 3.1},     {6, 1.95, 0},
+                         {6, 1.95, 3.1},   {7.45, 2, 1.57}, {7.45, 5, 1.57}, {7.45, 5, -1.57}};
+  Floor floor = mapped_from(poses, walls);
   floor.send({2, 2, 0}, {7.45, 8.5});
   floor.unknown = {{{7, 6.5}, {7.9, 6.5}}};
   Driver& driver = floor.drivers[0];

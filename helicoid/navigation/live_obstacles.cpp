@@ -27,16 +27,21 @@ bool is_free(std::span<const Vector2d> obstacles, const Vector2d& p, double radi
 
 }  // namespace
 
-void LiveObstacles::see(const Scan& scan, const LaserModel& laser, double dt) {
-  points_.clear();
-  const std::size_t beams = std::min(scan.ranges.size(), static_cast<std::size_t>(laser.beams));
+std::vector<Vector2d> surfaces_within(double reach, std::span<const float> ranges, const LaserModel& laser,
+                                      const Pose2& T_frame_laser) {
+  std::vector<Vector2d> points;
+  const std::size_t beams = std::min(ranges.size(), static_cast<std::size_t>(laser.beams));
   for (std::size_t i = 0; i < beams; ++i) {
-    const float range = scan.ranges[i];
-    if (!is_return(range, laser) || range > kReach) continue;
+    const auto range = static_cast<double>(ranges[i]);
+    if (!is_return(ranges[i], laser) || range > reach) continue;
     const double bearing = laser.bearing(static_cast<int>(i));
-    points_.push_back(scan.T_robot_laser *
-                      Vector2d(static_cast<double>(range) * Vector2d(std::cos(bearing), std::sin(bearing))));
+    points.push_back(T_frame_laser * Vector2d(range * std::cos(bearing), range * std::sin(bearing)));
   }
+  return points;
+}
+
+void LiveObstacles::see(const Scan& scan, const LaserModel& laser, double dt) {
+  points_ = surfaces_within(kReach, scan.ranges, laser, scan.T_robot_laser);
   if (scan.has_odometry) remember(scan, laser, dt);
 }
 

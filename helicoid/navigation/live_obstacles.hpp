@@ -10,6 +10,10 @@
 
 namespace helicoid {
 
+/// Where a scan's beams met something within `reach` metres of the laser, in order of the beams.
+[[nodiscard]] std::vector<Vector2d> surfaces_within(double reach, std::span<const float> ranges,
+                                                    const LaserModel& laser, const Pose2& T_frame_laser);
+
 /// All in the robot's frame of the latest scan; what is remembered is carried along by odometry.
 class LiveObstacles {
  public:

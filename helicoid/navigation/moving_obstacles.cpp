@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "helicoid/navigation/live_obstacles.hpp"
 #include "helicoid/sensor/scan_points.hpp"
 
 namespace helicoid {
@@ -80,18 +81,6 @@ bool MovingObstacles::View::sees_gone(const Vector2d& p_odom, const LaserModel& 
   return is_return(range, laser) && nearer > kLeastStep && nearer < kLongestStep;
 }
 
-std::vector<Vector2d> MovingObstacles::View::points(const LaserModel& laser) const {
-  std::vector<Vector2d> points;
-  const std::size_t beams = std::min(ranges.size(), static_cast<std::size_t>(laser.beams));
-  for (std::size_t i = 0; i < beams; ++i) {
-    const auto range = static_cast<double>(ranges[i]);
-    if (!is_return(ranges[i], laser) || range > kReach) continue;
-    const double bearing = laser.bearing(static_cast<int>(i));
-    points.push_back(T_odom_laser * Vector2d(range * std::cos(bearing), range * std::sin(bearing)));
-  }
-  return points;
-}
-
 void MovingObstacles::see(const Scan& scan, const LaserModel& laser, double dt) {
   all_.clear();
   if (!scan.has_odometry || laser.bearing_step == 0) return views_.clear();
@@ -101,9 +90,9 @@ void MovingObstacles::see(const Scan& scan, const LaserModel& laser, double dt) 
   const View& before = views_.front();
   const View& now = views_.back();
   if (before.age < 0.5 * kLookBack || before.age > 2 * kLookBack) return;
-  std::vector<Vector2d> left = before.points(laser);
+  std::vector<Vector2d> left = surfaces_within(kReach, before.ranges, laser, before.T_odom_laser);
   std::erase_if(left, [&](const Vector2d& p) { return !now.sees_gone(p, laser); });
-  std::vector<Vector2d> into = now.points(laser);
+  std::vector<Vector2d> into = surfaces_within(kReach, now.ranges, laser, now.T_odom_laser);
   std::erase_if(into, [&](const Vector2d& p) { return !before.sees_through(p, laser); });
   const Pose2 T_robot_odom = scan.T_odom_robot.inverse();
   const Pose2 turned{0, 0, T_robot_odom.yaw};

@@ -30,8 +30,6 @@ class MovingObstacles {
 
     [[nodiscard]] bool sees_through(const Vector2d& p_odom, const LaserModel& laser) const;
     [[nodiscard]] bool sees_gone(const Vector2d& p_odom, const LaserModel& laser) const;
-    /// Surfaces, in order of the beams, in the odometry's frame.
-    [[nodiscard]] std::vector<Vector2d> points(const LaserModel& laser) const;
   };
   std::deque<View> views_;  ///< the latest last
   std::vector<MovingObstacle> all_;
