@@ -55,6 +55,11 @@ struct Hypothesis {
   }
   /// Nobody has said anything about it yet.
   [[nodiscard]] bool is_undecided() const { return state == HypothesisState::open && !is_withheld(); }
+  /// Its places may lie anywhere along some direction: it agrees with whatever does.
+  [[nodiscard]] bool has_open_direction() const {
+    constexpr double kOpen = 5;  // metres
+    return confidence_interval(T_a_b.covariance).position > kOpen;
+  }
   /// An operator has said that it is not to be acted on.
   [[nodiscard]] bool is_withheld() const {
     return decided_by == DecidedBy::operator_ && state != HypothesisState::accepted;

@@ -207,13 +207,16 @@ void LoopCloser::withhold_with(std::size_t entry, std::size_t decided) {
 
 std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing) {
   const std::string telling = what_tells(ledger_, told_apart_, agreeing, options_.most_ambiguous);
+  const std::size_t newest = agreeing.back();
   // Only those that tell are acted on: the others may lie anywhere along a wall that looks alike.
   std::vector<std::size_t> accepted;
   for (const std::size_t i : clear_of(agreeing)) {
     if (ledger_[i].state != HypothesisState::open) continue;
+    // That others agree with it along an open direction says nothing of them.
+    if (i != newest && ledger_[newest].has_open_direction()) continue;
     ledger_[i].state = HypothesisState::accepted;
     ledger_[i].decided_by = DecidedBy::evidence;
-    ledger_[i].decided_with = agreeing.back();
+    ledger_[i].decided_with = newest;
     ledger_[i].reason = agreeing.size() > 1 ? "agrees with others of the same passage"
                                             : "matches, and lies where the map had it already";
     ledger_[i].reason += telling;

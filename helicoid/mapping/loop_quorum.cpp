@@ -8,15 +8,6 @@
 
 namespace helicoid {
 
-namespace {
-
-bool leaves_open(const Hypothesis& h) {
-  constexpr double kOpen = 5;  // metres
-  return confidence_interval(h.T_a_b.covariance).position > kOpen;
-}
-
-}  // namespace
-
 bool LoopCloser::is_sound(std::size_t entry) const {
   const Hypothesis& h = ledger_[entry];
   return !is_left_open(h) && h.contradicted <= options_.most_contradicted_one;
@@ -85,7 +76,7 @@ std::vector<std::size_t> LoopCloser::clear_of(const std::vector<std::size_t>& en
 bool LoopCloser::is_quorate(const std::vector<std::size_t>& entries, const Quorum& quorum) const {
   // Who leaves a direction open agrees with any place along it.
   std::vector<std::size_t> agreeing = entries;
-  std::erase_if(agreeing, [&](std::size_t i) { return leaves_open(ledger_[i]); });
+  std::erase_if(agreeing, [&](std::size_t i) { return ledger_[i].has_open_direction(); });
   if (agreeing.empty() || agreeing.size() < quorum.agreeing) return false;
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
