@@ -191,8 +191,10 @@ void TeamPilot::find_way(Member& m, double now, bool goes_on) {
 DriveCommand TeamPilot::steer(std::size_t robot, double now, double dt) {
   const Timed timed(times_.steer_s);
   Member* m = member(make_id<RobotId>(robot));
-  if (m == nullptr || !m->has_way) return {};
+  if (m == nullptr) return {};
+  // Without a way, too: what it remembers of its surroundings grows old.
   const FollowStep step = m->follower.step(map(), m->pose, m->scan, laser_, dt);
+  if (!m->has_way) return {};
   m->has_arrived = step.status == FollowStatus::arrived;
   m->way_left = step.left;
   if (step.status != FollowStatus::blocked) {

@@ -24,7 +24,7 @@ constexpr std::array<std::size_t, 4> kOneWing{0, 1, 4, 5};
 /// see each other in the corridor before there is anything to ask,
 constexpr double kWhenUnderWay = 30;  // seconds
 /// in the same wing once the first has gone on, or they see each other at once.
-constexpr double kWhenGone = 240;  // seconds
+constexpr double kWhenGone = 180;  // seconds
 
 /// A team that believes what is false may go about in it for good.
 constexpr double kLongest = 1200;  // seconds
@@ -243,7 +243,7 @@ Experiment rendezvous_experiment() {
   e.question = "Do robots that arrange to meet settle whether two places are one?";
   e.method =
       "A building with two wings that are alike to the millimetre; two pairs of robots that know nothing of one "
-      "another begin one in either wing, the second half a minute later; or the second, four minutes later, "
+      "another begin one in either wing, the second half a minute later; or the second, three minutes later, "
       "elsewhere in the wing in which the first began. Where places of the two maps look alike and it is worth the "
       "way, a robot of either is sent: if the places were one they would see each other. Met: they did, at the two "
       "places or one of them on the way there; distinct: both stood there and did not, though a sighting would have "
