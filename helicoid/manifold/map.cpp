@@ -68,6 +68,12 @@ RelationId MapEditor::add_relation(const Relation& relation) {
   return id;
 }
 
+void MapEditor::revise_relation(RelationId id, const Relation& now) {
+  Relation& relation = map_.relations_[id.index()];
+  assert(relation.a == now.a && relation.b == now.b);
+  relation = now;
+}
+
 void MapEditor::merge_islands(IslandId into, IslandId from, const Pose2& T_into_from) {
   for (std::size_t i = 0; i < map_.patches_.size(); ++i) {
     if (map_.island_of_[i] != from) continue;

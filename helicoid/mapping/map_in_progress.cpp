@@ -62,7 +62,7 @@ RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const Local
   options.min_correspondences = kMinCorrespondences;
   RelatedPatch found = relate(progress.map, views, progress.map.patch(b), prior, options);
   for (const NewRelation& r : found.relations) {
-    progress.add({r.patch, b, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
+    progress.add({r.patch, b, kind, r.form, r.T_a_b, r.c_min, kMatchRadius, r.correspondences});
   }
   return found;
 }

@@ -8,6 +8,7 @@
 #include "helicoid/mapping/join_on_sightings.hpp"
 #include "helicoid/mapping/judge_sightings.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
+#include "helicoid/mapping/match_again.hpp"
 #include "helicoid/mapping/new_ground.hpp"
 #include "helicoid/mapping/relate.hpp"
 #include "helicoid/mapping/sighting_fit.hpp"
@@ -124,11 +125,10 @@ void Mapper::State::join_what_is_determined(bool last) {
 }
 
 Step Mapper::State::start_island(RobotState& robot, const Event& event, const Scan& scan) {
-  const IslandId island = editor.add_island();
   const PatchId id = make_id<PatchId>(map.patch_count());
   editor.add_patch(make_patch(id, event.robot, map.robot(event.robot).trajectory.size(), event.stamp, scan,
                               robot.extractors[scan.laser]),
-                   Pose2{}, island);
+                   Pose2{}, editor.add_island());
   graph.add_pose();
   robot.pose = {id, Pose2{}};
   robot.last_kept = id;
@@ -154,7 +154,7 @@ PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& s
   graph.add_pose();
   for (const NewRelation& r : related.relations) {
     const RelationKind kind = r.patch == robot.last_kept ? RelationKind::chain : RelationKind::overlap;
-    add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, 0.1, r.correspondences});
+    add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, kMatchRadius, r.correspondences});
   }
   relate_to_last(robot, id);
   if (compares_places()) look_for_loops(id, robot.local);
@@ -185,6 +185,7 @@ void Mapper::State::close_what_is_left() {
   if (options.look_alikes) join_on_evidence(progress, closer, options.join_on_evidence, options);
   closer.follow_ways(map);
   tie_neighbours(progress, closer.along(), options);
+  match_again(map, editor);
   times.close_s += thread_seconds() - began;
 }
 

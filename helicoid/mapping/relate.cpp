@@ -69,6 +69,19 @@ PairMatch match_patches(const Patch& a, const Patch& b, const Pose2& T_a_b) {
   return match_pair({&a.points, &a.laser, a.scan.T_robot_laser}, b.points, T_a_b, options);
 }
 
+std::optional<Relation> match_anew(const Map& map, Relation relation, const Pose2& T_a_b,
+                                   const RelateOptions& options) {
+  const Patch& a = map.patch(relation.a);
+  const Patch& b = map.patch(relation.b);
+  const PairMatch match = match_patches(a, b, T_a_b);
+  if (match.correspondences < options.min_correspondences || !agree(a, b, T_a_b, match, options)) return std::nullopt;
+  relation.form = match.form;
+  relation.T_a_b = T_a_b;
+  relation.c_min = 2 * minimise(match.form, T_a_b).cost;
+  relation.correspondences = match.correspondences;
+  return relation;
+}
+
 RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Patch& patch, const PosePrior& prior,
                     const RelateOptions& options) {
   RelatedPatch result{prior.T_reference_scan, {}};

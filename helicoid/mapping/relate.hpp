@@ -1,6 +1,7 @@
 // A new patch's relations to the local map, and the fit of its pose alone (paper IV-A steps 3 and 4, eq. 13).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,13 @@ struct RelateOptions {
 
 /// The correspondences of two patches that stand so, by what their lasers are.
 [[nodiscard]] PairMatch match_patches(const Patch& a, const Patch& b, const Pose2& T_a_b);
+
+/// About where it was made a match holds: half the points' usual spacing (design 5.1), metres.
+inline constexpr double kMatchRadius = 0.035;
+
+/// A relation's pair matched anew at this relative pose; nothing if they hardly match or contradict each other there.
+[[nodiscard]] std::optional<Relation> match_anew(const Map& map, Relation relation, const Pose2& T_a_b,
+                                                 const RelateOptions& options = {});
 
 /// The relation of a local patch (a) with the new one (b).
 struct NewRelation {
