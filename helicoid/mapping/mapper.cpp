@@ -31,11 +31,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   // Steps 2 to 4: the local map, the match, the fit.
   PosePrior prior = predict(robot, motion);
   const ScanPoints& points = robot.extractors[scan.laser].extract(scan);
-  renew_reference(robot, points, prior.T_reference_scan);
-  Alignment alignment = match(robot, points, prior, motion, laser);
-  if (!alignment.usable() && robot.pose.patch != robot.last_kept) {
-    alignment = match_on_own_way(robot, points, prior, motion, alignment, laser);
-  }
+  const Alignment alignment = find_robot(robot, points, prior, motion, laser);
 
   Step result;
   result.iterations = alignment.iterations;

@@ -41,8 +41,14 @@ struct Mapper::State {
   void renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot);
   Alignment match(RobotState& robot, const ScanPoints& points, const PosePrior& prior, const Motion& motion,
                   const LaserModel& laser);
-  Alignment match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior, const Motion& motion,
-                             const Alignment& failed, const LaserModel& laser);
+  /// Steps 2 and 3 for this scan: where it fits, `prior` that of the place from which that was found.
+  Alignment find_robot(RobotState& robot, const ScanPoints& points, PosePrior& prior, const Motion& motion,
+                       const LaserModel& laser);
+  /// The robot taken to have stood elsewhere before this motion, known so well there. It is put back unless that
+  /// explains the scan with a share of inliers above `least`; else the match.
+  std::optional<Alignment> match_from(RobotState& robot, const UncertainPose2& T_last_kept_before,
+                                      const ScanPoints& points, PosePrior& prior, const Motion& motion, double least,
+                                      const LaserModel& laser);
   bool is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan, std::size_t points) const;
   std::optional<RobotId> robot_named(const std::string& name) const;
   void take(const Event& event, const Sighting& sighting);

@@ -29,6 +29,7 @@ struct RobotState {
   DrivenWay since_kept;    ///< from the last kept patch
   DrivenWay since_known;   ///< the same, or from where the scans last told surely where on older ground the robot stood
   double usual_share = 0;  ///< running mean of the matches' inlier shares
+  double asked_odometry = 0;  ///< how far since_kept was when a match was held against odometry last, metres
 };
 
 }  // namespace helicoid

@@ -11,6 +11,12 @@ namespace helicoid {
 
 namespace {
 
+// When a match is held against what odometry alone says since the last kept patch:
+constexpr double kFitsPoorly = 0.75;  // at fewer inliers
+constexpr double kElsewhere = 0.3;    // and so far from there, metres;
+constexpr double kAskedEvery = 0.25;  // once in this way, metres
+constexpr double kPlainly = 0.2;      // odometry is believed if it explains so much more of the scan
+
 /// True if a match lies elsewhere than odometry can well be off by.
 bool contradicts_place(const Alignment& alignment, const PosePrior& prior) {
   constexpr double kChi2 = 13.82;  // 99.9 % at two degrees of freedom
@@ -72,27 +78,44 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
   return alignment;
 }
 
-/// The older ground on which the robot was taken to stand does not fit: back to the patch that it kept last.
-Alignment Mapper::State::match_on_own_way(RobotState& robot, const ScanPoints& points, PosePrior& prior,
-                                          const Motion& motion, const Alignment& failed, const LaserModel& laser) {
-  const ManifoldPose pose = robot.pose;
-  const Matrix3d covariance = robot.covariance;
-  const PosePrior there = prior;
-  const Pose2 T_last_anchor = map.T_plane_patch(robot.last_kept).inverse() * map.T_plane_patch(pose.patch);
-  robot.pose = {robot.last_kept, T_last_anchor * pose.T_patch_robot};
-  robot.covariance = turned(covariance, T_last_anchor.yaw);
-  // An information turns as a covariance does.
-  prior = {T_last_anchor * there.T_reference_scan, turned(there.information, T_last_anchor.yaw)};
+std::optional<Alignment> Mapper::State::match_from(RobotState& robot, const UncertainPose2& T_last_kept_before,
+                                                   const ScanPoints& points, PosePrior& prior, const Motion& motion,
+                                                   double least, const LaserModel& laser) {
+  RobotState before = robot;
+  robot.pose = {robot.last_kept, T_last_kept_before.T_a_b};
+  robot.covariance = T_last_kept_before.covariance;
   robot.stale = true;
+  const PosePrior there = predict(robot, motion);
+  renew_reference(robot, points, there.T_reference_scan);
+  const Alignment alignment = match(robot, points, there, motion, laser);
+  if (alignment.usable() && alignment.inlier_share > least) {
+    prior = there;
+    return alignment;
+  }
+  robot = std::move(before);
+  return std::nullopt;
+}
+
+Alignment Mapper::State::find_robot(RobotState& robot, const ScanPoints& points, PosePrior& prior, const Motion& motion,
+                                    const LaserModel& laser) {
   renew_reference(robot, points, prior.T_reference_scan);
   Alignment alignment = match(robot, points, prior, motion, laser);
-  if (alignment.usable()) return alignment;
-  robot.pose = pose;
-  robot.covariance = covariance;
-  prior = there;
-  robot.stale = true;
-  renew_reference(robot, points, prior.T_reference_scan);
-  return failed;
+  const Pose2 T_last_anchor = map.T_plane_patch(robot.last_kept).inverse() * map.T_plane_patch(robot.pose.patch);
+  if (!alignment.usable() && robot.pose.patch != robot.last_kept) {
+    // The older ground on which it was taken to stand does not fit: back to the patch that it kept last.
+    const UncertainPose2 before{T_last_anchor * robot.pose.T_patch_robot, turned(robot.covariance, T_last_anchor.yaw)};
+    return match_from(robot, before, points, prior, motion, 0, laser).value_or(alignment);
+  }
+  const Pose2 off = robot.since_kept.T_from_robot.inverse() * T_last_anchor * alignment.T_reference_scan;
+  const bool was_asked = std::abs(robot.since_kept.path - robot.asked_odometry) < kAskedEvery;
+  if (!alignment.usable() || alignment.inlier_share > kFitsPoorly || off.distance() < kElsewhere || was_asked) {
+    return alignment;
+  }
+  // A bare corridor fits anywhere along it, and one of its doors holds a robot that drives slowly past.
+  robot.asked_odometry = robot.since_kept.path;
+  const UncertainPose2 end = robot.since_kept.end(robot.motion);
+  const UncertainPose2 before{end.T_a_b * motion.T_last_now.inverse(), end.covariance};
+  return match_from(robot, before, points, prior, motion, alignment.inlier_share + kPlainly, laser).value_or(alignment);
 }
 
 Motion Mapper::State::advance(RobotState& robot, const Event& event, const Scan& scan) {
