@@ -11,18 +11,22 @@ namespace helicoid {
 
 namespace {
 
-// When a match is held against what odometry alone says since the last kept patch:
+// When a match that odometry since the last kept patch contradicts is held against it:
 constexpr double kFitsPoorly = 0.75;  // at fewer inliers
-constexpr double kElsewhere = 0.3;    // and so far from there, metres;
 constexpr double kAskedEvery = 0.25;  // once in this way, metres
 constexpr double kPlainly = 0.2;      // odometry is believed if it explains so much more of the scan
 
+/// True if a place is not where this says that it is, by more than that can well be off.
+bool is_elsewhere(const Pose2& T_a_b, const UncertainPose2& said) {
+  constexpr double kChi2 = 13.82;  // 99.9 % at two degrees of freedom
+  const Matrix2d covariance = said.covariance.topLeftCorner<2, 2>();
+  const Vector2d off = T_a_b.translation() - said.T_a_b.translation();
+  return off.dot(covariance.inverse() * off) > kChi2;
+}
+
 /// True if a match lies elsewhere than odometry can well be off by.
 bool contradicts_place(const Alignment& alignment, const PosePrior& prior) {
-  constexpr double kChi2 = 13.82;  // 99.9 % at two degrees of freedom
-  const Matrix2d covariance = prior.information.inverse().topLeftCorner<2, 2>();
-  const Vector2d off = alignment.T_reference_scan.translation() - prior.T_reference_scan.translation();
-  return off.dot(covariance.inverse() * off) > kChi2;
+  return is_elsewhere(alignment.T_reference_scan, {prior.T_reference_scan, prior.information.inverse()});
 }
 
 }  // namespace
@@ -106,14 +110,12 @@ Alignment Mapper::State::find_robot(RobotState& robot, const ScanPoints& points,
     const UncertainPose2 before{T_last_anchor * robot.pose.T_patch_robot, turned(robot.covariance, T_last_anchor.yaw)};
     return match_from(robot, before, points, prior, motion, 0, laser).value_or(alignment);
   }
-  const Pose2 off = robot.since_kept.T_from_robot.inverse() * T_last_anchor * alignment.T_reference_scan;
   const bool was_asked = std::abs(robot.since_kept.path - robot.asked_odometry) < kAskedEvery;
-  if (!alignment.usable() || alignment.inlier_share > kFitsPoorly || off.distance() < kElsewhere || was_asked) {
-    return alignment;
-  }
+  if (!alignment.usable() || alignment.inlier_share > kFitsPoorly || was_asked) return alignment;
+  const UncertainPose2 end = robot.since_kept.end(robot.motion);
+  if (!is_elsewhere(T_last_anchor * alignment.T_reference_scan, end)) return alignment;
   // A bare corridor fits anywhere along it, and one of its doors holds a robot that drives slowly past.
   robot.asked_odometry = robot.since_kept.path;
-  const UncertainPose2 end = robot.since_kept.end(robot.motion);
   const UncertainPose2 before{end.T_a_b * motion.T_last_now.inverse(), end.covariance};
   return match_from(robot, before, points, prior, motion, alignment.inlier_share + kPlainly, laser).value_or(alignment);
 }
