@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "helicoid/align/told_by_one_thing.hpp"
 #include "helicoid/mapping/mapper_state.hpp"
@@ -96,6 +97,8 @@ std::optional<Alignment> Mapper::State::match_from(RobotState& robot, const Unce
     prior = there;
     return alignment;
   }
+  // The scan's points live in the extractors: those stay where they are.
+  std::swap(before.extractors, robot.extractors);
   robot = std::move(before);
   return std::nullopt;
 }
