@@ -52,9 +52,8 @@ std::vector<Result<Outcome>> run_jobs(const std::vector<Job>& jobs, int threads,
 
 /// The bar that judges a metric in this form of the experiment; null: none.
 const Bar* find_bar(const Experiment& experiment, bool quick, const std::string& metric) {
-  const auto bar = std::find_if(experiment.bars.begin(), experiment.bars.end(), [&](const Bar& b) {
-    return b.metric == metric && !(quick && (b.of_clock || b.of_share));
-  });
+  const auto bar = std::find_if(experiment.bars.begin(), experiment.bars.end(),
+                                [&](const Bar& b) { return b.metric == metric && !(quick && b.of_whole); });
   return bar != experiment.bars.end() ? &*bar : nullptr;
 }
 

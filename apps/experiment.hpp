@@ -49,8 +49,8 @@ struct Bar {
   std::optional<double> at_least;
   std::optional<double> at_most;
   bool of_mean = false;
-  bool of_clock = false;  ///< one short run's clock judges nothing: shown in the short form, judged in the whole
-  bool of_share = false;  ///< nor does one run judge a share of runs
+  /// A short run's clock, or a share of few runs, judges nothing: shown in the short form, judged in the whole.
+  bool of_whole = false;
   [[nodiscard]] bool holds(double value) const {
     return (!at_least || value >= *at_least) && (!at_most || value <= *at_most);  // NaN holds nowhere
   }

@@ -107,7 +107,7 @@ std::string describe(const Bar* bar) {
                      : bar->at_least               ? fmt::format("at least {:g}", *bar->at_least)
                                                    : "";
   if (bar->of_mean) text += ", the mean";
-  return bar->of_clock ? text + ", by the clock" : text;
+  return bar->of_whole ? text + ", judged in whole runs" : text;
 }
 
 Json to_json(const Experiment& experiment, const ExperimentOptions& options, const ExperimentReport& report) {

@@ -257,12 +257,9 @@ Experiment rendezvous_experiment() {
       "case in which it is asked for: a pair that begins where another has been must be met, though it is also told "
       "that it is not in the other wing. The pictures show the first run of each case: the building with the two of "
       "each meeting where they were when it was settled, and the map with meetings and with greedy closure.";
-  e.bars = {{"met_runs_ratio", 0.5, std::nullopt, true, false, true},
-            {"distinct_runs_ratio", 0.5, std::nullopt, true, false, true},
-            {"settled_wrongly_count", std::nullopt, 0.0, false},
-            {"least_chance_percent", 95.0, std::nullopt, false},
-            {"wrong_merges_count", std::nullopt, 0.0, false},
-            {"collisions_count", std::nullopt, 0.0, false}};
+  e.bars = {{"met_runs_ratio", 0.5, std::nullopt, true, true},   {"distinct_runs_ratio", 0.5, std::nullopt, true, true},
+            {"settled_wrongly_count", std::nullopt, 0.0, false}, {"least_chance_percent", 95.0, std::nullopt, false},
+            {"wrong_merges_count", std::nullopt, 0.0, false},    {"collisions_count", std::nullopt, 0.0, false}};
   e.seeds = 10;
   e.quick_seeds = 1;
   e.cases = [](const ExperimentOptions& options) {

@@ -23,7 +23,7 @@ std::vector<PatchId> tie(MapInProgress& progress, const Hypothesis& h, const Map
   const RelatedPatch found =
       relate_to(progress, h.b, views, {h.T_a_b.T_a_b, h.T_a_b.covariance.inverse()}, RelationKind::closure);
   std::vector<PatchId> related{h.b};
-  for (const NewRelation& r : found.relations) related.push_back(r.patch);
+  for (const Relation& r : found.relations) related.push_back(r.a);
   return related;
 }
 

@@ -14,8 +14,8 @@ void Mapper::State::go_on_from(Map before) {
     for (const LaserModel& laser : record.lasers) robot.extractors.emplace_back(laser);
     if (record.trajectory.empty()) continue;
     const TrackedScan last = record.trajectory.back();
-    robot.pose = last.pose;
-    robot.covariance = last.covariance;
+    robot.at.pose = last.pose;
+    robot.at.covariance = last.covariance;
     robot.last_kept = last.pose.patch;
   }
   // The newest of each robot, if it has one.
@@ -25,7 +25,7 @@ void Mapper::State::go_on_from(Map before) {
   for (RobotState& robot : robots) {
     if (!robot.last_kept.valid()) continue;
     robot.since_kept.from = {robot.last_kept, Pose2{}};
-    robot.since_kept.T_from_robot = map.express(robot.pose, robot.last_kept).T_patch_robot;
+    robot.since_kept.T_from_robot = map.express(robot.at.pose, robot.last_kept).T_patch_robot;
     robot.since_known = robot.since_kept;
   }
 }

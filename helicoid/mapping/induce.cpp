@@ -28,7 +28,7 @@ struct Induced {
 
 Induced induced_by(const Map& map, PatchId anchor, const RelatedPatch& found) {
   Induced induced{{}, map.T_plane_patch(anchor) * found.T_anchor_patch};
-  for (const NewRelation& r : found.relations) induced.related.push_back(r.patch);
+  for (const Relation& r : found.relations) induced.related.push_back(r.a);
   return induced;
 }
 

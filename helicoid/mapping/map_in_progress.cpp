@@ -61,8 +61,9 @@ RelatedPatch relate_to(MapInProgress& progress, PatchId b, std::span<const Local
   RelateOptions options;
   options.min_correspondences = kMinCorrespondences;
   RelatedPatch found = relate(progress.map, views, progress.map.patch(b), prior, options);
-  for (const NewRelation& r : found.relations) {
-    progress.add({r.patch, b, kind, r.form, r.T_a_b, r.c_min, kMatchRadius, r.correspondences});
+  for (Relation& relation : found.relations) {
+    relation.kind = kind;
+    progress.add(relation);
   }
   return found;
 }

@@ -26,7 +26,7 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
   RobotState& robot = robots[event.robot.index()];
   const LaserModel& laser = laser_of(event.robot, scan);
   const Motion motion = advance(robot, event, scan);
-  if (!robot.pose.patch.valid()) return start_island(robot, event, scan);
+  if (!robot.at.pose.patch.valid()) return start_island(robot, event, scan);
 
   // Steps 2 to 4: the local map, the match, the fit.
   PosePrior prior = predict(robot, motion);
@@ -47,14 +47,15 @@ Step Mapper::State::step(const Event& event, const Scan& scan) {
     stand_on(robot, *ground);
   }
   note_known_ground(robot, alignment);
-  result.pose = robot.pose;
-  editor.append_scan(event.robot, {event.stamp, robot.pose, map.T_plane_patch(robot.pose.patch), robot.covariance});
+  result.pose = robot.at.pose;
+  editor.append_scan(event.robot,
+                     {event.stamp, robot.at.pose, map.T_plane_patch(robot.at.pose.patch), robot.at.covariance});
   return result;
 }
 
 bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignment, const Scan& scan,
                                      std::size_t points) const {
-  const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
+  const Pose2& T_anchor_robot = robot.at.pose.T_patch_robot;
   // Who has kept nothing for a while walks known ground: there it takes more, or every lap would fill in gaps that the
   // ones before it left by a little.
   const double more = robot.since_kept.path + options.patch_spacing / options.patch_turn * robot.since_kept.turn >
@@ -63,14 +64,14 @@ bool Mapper::State::is_worth_keeping(RobotState& robot, const Alignment& alignme
                           : 1;
   // A scan that saw next to nothing makes no patch: nothing could be matched to it.
   const bool sees = points >= static_cast<std::size_t>(AlignOptions{}.min_points);
-  if (sees && is_far_from_all(robot.local, T_anchor_robot, options, more)) return true;
-  if (!alignment.usable() || !is_far_from_all(robot.local, T_anchor_robot, options, more * options.apart_share)) {
+  if (sees && is_far_from_all(robot.at.local, T_anchor_robot, options, more)) return true;
+  if (!alignment.usable() || !is_far_from_all(robot.at.local, T_anchor_robot, options, more * options.apart_share)) {
     return false;
   }
   if (1 - alignment.inlier_share > more * (1 - options.new_surface_share)) return true;
-  if (!has_moved(robot.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) return false;
-  robot.T_anchor_coverage_view = T_anchor_robot;
-  const UncoveredShare share = uncovered_share(map, robot.local, T_anchor_robot, scan, robot.extractors[scan.laser]);
+  if (!has_moved(robot.at.T_anchor_coverage_view, T_anchor_robot, 0.25, 0.26)) return false;
+  robot.at.T_anchor_coverage_view = T_anchor_robot;
+  const UncoveredShare share = uncovered_share(map, robot.at.local, T_anchor_robot, scan, robot.extractors[scan.laser]);
   return share.of_all > more * options.new_ground_share || share.of_near > options.new_ground_share;
 }
 
@@ -115,7 +116,7 @@ void Mapper::State::join_what_is_determined(bool last) {
   }
   if (changed) {
     proposals.answer(map, closer);
-    for (RobotState& robot : robots) robot.stale = true;
+    for (RobotState& robot : robots) robot.at.stale = true;
   }
   times.close_s += thread_seconds() - began;
 }
@@ -126,40 +127,40 @@ Step Mapper::State::start_island(RobotState& robot, const Event& event, const Sc
                               robot.extractors[scan.laser]),
                    Pose2{}, editor.add_island());
   graph.add_pose();
-  robot.pose = {id, Pose2{}};
+  robot.at.pose = {id, Pose2{}};
   robot.last_kept = id;
-  robot.since_kept = robot.since_known = DrivenWay(robot.pose);
-  robot.stale = true;
-  editor.append_scan(event.robot, {event.stamp, robot.pose, Pose2{}, Matrix3d::Zero()});
-  return {StepStatus::first, robot.pose, id, 0, 0};
+  robot.since_kept = robot.since_known = DrivenWay(robot.at.pose);
+  robot.at.stale = true;
+  editor.append_scan(event.robot, {event.stamp, robot.at.pose, Pose2{}, Matrix3d::Zero()});
+  return {StepStatus::first, robot.at.pose, id, 0, 0};
 }
 
 PatchId Mapper::State::keep(RobotState& robot, const Event& event, const Scan& scan) {
-  const PatchId anchor = robot.pose.patch;
-  const Pose2& T_anchor_robot = robot.pose.T_patch_robot;
+  const PatchId anchor = robot.at.pose.patch;
+  const Pose2& T_anchor_robot = robot.at.pose.T_patch_robot;
   const PatchId id = make_id<PatchId>(map.patch_count());
   Patch patch = make_patch(id, event.robot, map.robot(event.robot).trajectory.size(), event.stamp, scan,
                            robot.extractors[scan.laser]);
   const std::vector<LocalPatch> views =
-      select_views(map, robot.local, patch.points, T_anchor_robot, robot.last_kept, options.relation_views);
+      select_views(map, robot.at.local, patch.points, T_anchor_robot, robot.last_kept, options.relation_views);
   // The new patch's fit is worth no more beforehand than odometry: the match's own beams must not count twice. What the
   // views leave open stays where the robot was followed to.
   const PosePrior prior{T_anchor_robot, robot.motion.path_information(robot.since_known.path, robot.since_known.turn)};
-  const RelatedPatch related = relate(map, views, patch, prior);
+  RelatedPatch related = relate(map, views, patch, prior);
   editor.add_patch(std::move(patch), map.T_plane_patch(anchor) * related.T_anchor_patch, map.island_of(anchor));
   graph.add_pose();
-  for (const NewRelation& r : related.relations) {
-    const RelationKind kind = r.patch == robot.last_kept ? RelationKind::chain : RelationKind::overlap;
-    add_relation({r.patch, id, kind, r.form, r.T_a_b, r.c_min, kMatchRadius, r.correspondences});
+  for (Relation& relation : related.relations) {
+    if (relation.a == robot.last_kept) relation.kind = RelationKind::chain;
+    add_relation(relation);
   }
   relate_to_last(robot, id);
-  if (compares_places()) look_for_loops(id, robot.local);
+  if (compares_places()) look_for_loops(id, robot.at.local);
   // Eq. 15.
-  robot.pose = {id, Pose2{}};
-  robot.covariance.setZero();
+  robot.at.pose = {id, Pose2{}};
+  robot.at.covariance.setZero();
   robot.last_kept = id;
-  robot.since_kept = robot.since_known = DrivenWay(robot.pose);
-  robot.stale = true;
+  robot.since_kept = robot.since_known = DrivenWay(robot.at.pose);
+  robot.at.stale = true;
   return id;
 }
 
@@ -167,7 +168,7 @@ void Mapper::State::look_for_loops(PatchId id, const LocalMap& known) {
   const double began = thread_seconds();
   MapInProgress progress{map, editor, graph};
   if (close_loops(progress, closer, id, known, options)) {
-    for (RobotState& robot : robots) robot.stale = true;
+    for (RobotState& robot : robots) robot.at.stale = true;
   }
   times.close_s += thread_seconds() - began;
 }
@@ -251,7 +252,7 @@ void Mapper::decide(const Decision& decision) {
   JoinTrials trials;
   act_on_or_join(progress, s.closer, accepted, trials, s.options);
   s.proposals.answer(s.map, s.closer);
-  for (RobotState& robot : s.robots) robot.stale = true;
+  for (RobotState& robot : s.robots) robot.at.stale = true;
 }
 
 void Mapper::finish() {
@@ -267,7 +268,7 @@ void Mapper::finish() {
   judge_sightings(s.map, s.closer, s.sightings);
   choose_origins(s.map, s.editor);
   s.graph = information_graph(s.map);
-  for (RobotState& robot : s.robots) robot.stale = true;
+  for (RobotState& robot : s.robots) robot.at.stale = true;
   s.times.fit_s += thread_seconds() - began;
 }
 

@@ -61,6 +61,10 @@ bool drop_contradicted(const Map& map, std::span<const LocalPatch> views, const 
   return dropped;
 }
 
+Relation as_relation(PatchId a, PatchId b, RelationKind kind, const PairMatch& match, const Pose2& T_a_b) {
+  return {a, b, kind, match.form, T_a_b, 2 * minimise(match.form, T_a_b).cost, kMatchRadius, match.correspondences};
+}
+
 }  // namespace
 
 PairMatch match_patches(const Patch& a, const Patch& b, const Pose2& T_a_b) {
@@ -69,17 +73,13 @@ PairMatch match_patches(const Patch& a, const Patch& b, const Pose2& T_a_b) {
   return match_pair({&a.points, &a.laser, a.scan.T_robot_laser}, b.points, T_a_b, options);
 }
 
-std::optional<Relation> match_anew(const Map& map, Relation relation, const Pose2& T_a_b,
+std::optional<Relation> match_anew(const Map& map, const Relation& relation, const Pose2& T_a_b,
                                    const RelateOptions& options) {
   const Patch& a = map.patch(relation.a);
   const Patch& b = map.patch(relation.b);
   const PairMatch match = match_patches(a, b, T_a_b);
   if (match.correspondences < options.min_correspondences || !agree(a, b, T_a_b, match, options)) return std::nullopt;
-  relation.form = match.form;
-  relation.T_a_b = T_a_b;
-  relation.c_min = 2 * minimise(match.form, T_a_b).cost;
-  relation.correspondences = match.correspondences;
-  return relation;
+  return as_relation(relation.a, relation.b, relation.kind, match, T_a_b);
 }
 
 RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Patch& patch, const PosePrior& prior,
@@ -105,8 +105,7 @@ RelatedPatch relate(const Map& map, std::span<const LocalPatch> views, const Pat
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (matches[i].correspondences == 0) continue;
     const Pose2 T_a_b = views[i].T_anchor_patch.inverse() * result.T_anchor_patch;
-    result.relations.push_back({views[i].patch, matches[i].form, T_a_b, 2 * minimise(matches[i].form, T_a_b).cost,
-                                matches[i].correspondences});
+    result.relations.push_back(as_relation(views[i].patch, patch.id, RelationKind::overlap, matches[i], T_a_b));
   }
   return result;
 }

@@ -29,21 +29,12 @@ struct RelateOptions {
 inline constexpr double kMatchRadius = 0.035;
 
 /// A relation's pair matched anew at this relative pose; nothing if they hardly match or contradict each other there.
-[[nodiscard]] std::optional<Relation> match_anew(const Map& map, Relation relation, const Pose2& T_a_b,
+[[nodiscard]] std::optional<Relation> match_anew(const Map& map, const Relation& relation, const Pose2& T_a_b,
                                                  const RelateOptions& options = {});
 
-/// The relation of a local patch (a) with the new one (b).
-struct NewRelation {
-  PatchId patch;
-  PairForm form;
-  Pose2 T_a_b;
-  double c_min = 0;
-  int correspondences = 0;
-};
-
 struct RelatedPatch {
-  Pose2 T_anchor_patch;  ///< of the new patch, eq. 13
-  std::vector<NewRelation> relations;
+  Pose2 T_anchor_patch;             ///< of the new patch, eq. 13
+  std::vector<Relation> relations;  ///< of a local patch (a) with the new one (b), of kind overlap
 };
 
 /// Matches a new patch that stands about at `prior` against each of the views, fits its pose against all of them

@@ -10,13 +10,10 @@
 
 namespace helicoid {
 
-/// Poses are in the frame of the anchor, the patch on which the robot stands.
-struct RobotState {
-  std::vector<ScanPointExtractor> extractors;  ///< one a laser
-  MotionPrior motion;
-  Pose2 T_odom_robot;  ///< of the last scan
-  SeenRobots seen;     ///< by this robot
-  ManifoldPose pose;   ///< rho_t; its patch is the anchor
+/// Where a robot stands, and what its scans are matched with there: what a trial match elsewhere changes, and puts
+/// back. Poses are in the frame of the anchor, the patch on which the robot stands.
+struct Standing {
+  ManifoldPose pose;  ///< rho_t; its patch is the anchor
   /// Of pose.T_patch_robot, in the anchor's frame: what the matches have left open so far.
   Matrix3d covariance = Matrix3d::Zero();
   LocalMap local;                 ///< about the anchor
@@ -25,6 +22,14 @@ struct RobotState {
   Pose2 T_anchor_reference_view;  ///< from where the reference was chosen
   Pose2 T_anchor_coverage_view;   ///< where coverage was looked at last
   bool stale = true;              ///< the local map and the reference must be made again
+};
+
+struct RobotState {
+  std::vector<ScanPointExtractor> extractors;  ///< one a laser
+  MotionPrior motion;
+  Pose2 T_odom_robot;  ///< of the last scan
+  SeenRobots seen;     ///< by this robot
+  Standing at;
   PatchId last_kept;
   DrivenWay since_kept;    ///< from the last kept patch
   DrivenWay since_known;   ///< the same, or from where the scans last told surely where on older ground the robot stood

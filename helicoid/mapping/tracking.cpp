@@ -33,50 +33,50 @@ bool contradicts_place(const Alignment& alignment, const PosePrior& prior) {
 }  // namespace
 
 PosePrior predict(const RobotState& robot, const Motion& motion) {
-  const UncertainPose2 T_anchor_now =
-      compound({robot.pose.T_patch_robot, robot.covariance}, {motion.T_last_now, robot.motion.covariance(motion)});
+  const UncertainPose2 T_anchor_now = compound({robot.at.pose.T_patch_robot, robot.at.covariance},
+                                               {motion.T_last_now, robot.motion.covariance(motion)});
   return {T_anchor_now.T_a_b, T_anchor_now.covariance.inverse()};
 }
 
 void Mapper::State::renew_reference(RobotState& robot, const ScanPoints& points, const Pose2& T_anchor_robot) {
-  if (!robot.stale && !has_moved(robot.T_anchor_reference_view, T_anchor_robot, options.reference_renewal,
-                                 options.reference_renewal_turn)) {
+  if (!robot.at.stale && !has_moved(robot.at.T_anchor_reference_view, T_anchor_robot, options.reference_renewal,
+                                    options.reference_renewal_turn)) {
     return;
   }
-  if (robot.stale) {
-    robot.local = find_local_map(map, graph, robot.pose.patch, options);
-    robot.places = distinct_places(robot.local, robot.last_kept);
-    robot.T_anchor_coverage_view = T_anchor_robot;
-    robot.stale = false;
+  if (robot.at.stale) {
+    robot.at.local = find_local_map(map, graph, robot.at.pose.patch, options);
+    robot.at.places = distinct_places(robot.at.local, robot.last_kept);
+    robot.at.T_anchor_coverage_view = T_anchor_robot;
+    robot.at.stale = false;
   }
   const std::vector<LocalPatch> views =
-      select_views(map, robot.places, points, T_anchor_robot, robot.last_kept, options.reference_views);
-  robot.reference.build(reference_parts(map, views));
-  robot.T_anchor_reference_view = T_anchor_robot;
+      select_views(map, robot.at.places, points, T_anchor_robot, robot.last_kept, options.reference_views);
+  robot.at.reference.build(reference_parts(map, views));
+  robot.at.T_anchor_reference_view = T_anchor_robot;
 }
 
 Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, const PosePrior& prior,
                                const Motion& motion, const LaserModel& laser) {
   const AlignOptions align = align_options(laser);
-  Alignment alignment = align_scan(robot.reference, points, prior, align);
+  Alignment alignment = align_scan(robot.at.reference, points, prior, align);
   const bool is_unusual = alignment.inlier_share < options.usual_inlier_part * robot.usual_share;
   if (robot.motion.is_doubtful(motion) || is_unusual || alignment.inlier_share < options.good_inlier_share) {
     if (const std::optional<Motion> instead = robot.motion.alternative(motion)) {
-      const Alignment other = align_scan(robot.reference, points, predict(robot, *instead), align);
+      const Alignment other = align_scan(robot.at.reference, points, predict(robot, *instead), align);
       if (other.usable() && other.inlier_share > alignment.inlier_share + 0.02) alignment = other;
     }
   }
   if (alignment.usable() && contradicts_place(alignment, prior)) {
     AlignOptions held = align;
     held.prior_freedom = kGaussian;
-    const Alignment other = align_scan(robot.reference, points, prior, held);
+    const Alignment other = align_scan(robot.at.reference, points, prior, held);
     if (other.usable() &&
-        is_told_by_one_thing(robot.reference, points, other.T_reference_scan, alignment.T_reference_scan)) {
+        is_told_by_one_thing(robot.at.reference, points, other.T_reference_scan, alignment.T_reference_scan)) {
       alignment = other;
     }
   }
   if (alignment.status == AlignStatus::too_few_inliers || alignment.inlier_share < options.good_inlier_share) {
-    const Alignment fan = align_scan_in_fan(robot.reference, points, prior, align);
+    const Alignment fan = align_scan_in_fan(robot.at.reference, points, prior, align);
     ++counts.coarse_searches;
     if (fan.usable() && fan.inlier_share > alignment.inlier_share) alignment = fan;
   }
@@ -86,10 +86,10 @@ Alignment Mapper::State::match(RobotState& robot, const ScanPoints& points, cons
 std::optional<Alignment> Mapper::State::match_from(RobotState& robot, const UncertainPose2& T_last_kept_before,
                                                    const ScanPoints& points, PosePrior& prior, const Motion& motion,
                                                    double least, const LaserModel& laser) {
-  RobotState before = robot;
-  robot.pose = {robot.last_kept, T_last_kept_before.T_a_b};
-  robot.covariance = T_last_kept_before.covariance;
-  robot.stale = true;
+  Standing before = robot.at;
+  robot.at.pose = {robot.last_kept, T_last_kept_before.T_a_b};
+  robot.at.covariance = T_last_kept_before.covariance;
+  robot.at.stale = true;
   const PosePrior there = predict(robot, motion);
   renew_reference(robot, points, there.T_reference_scan);
   const Alignment alignment = match(robot, points, there, motion, laser);
@@ -97,9 +97,7 @@ std::optional<Alignment> Mapper::State::match_from(RobotState& robot, const Unce
     prior = there;
     return alignment;
   }
-  // The scan's points live in the extractors: those stay where they are.
-  std::swap(before.extractors, robot.extractors);
-  robot = std::move(before);
+  robot.at = std::move(before);
   return std::nullopt;
 }
 
@@ -107,10 +105,11 @@ Alignment Mapper::State::find_robot(RobotState& robot, const ScanPoints& points,
                                     const LaserModel& laser) {
   renew_reference(robot, points, prior.T_reference_scan);
   Alignment alignment = match(robot, points, prior, motion, laser);
-  const Pose2 T_last_anchor = map.T_plane_patch(robot.last_kept).inverse() * map.T_plane_patch(robot.pose.patch);
-  if (!alignment.usable() && robot.pose.patch != robot.last_kept) {
+  const Pose2 T_last_anchor = map.T_plane_patch(robot.last_kept).inverse() * map.T_plane_patch(robot.at.pose.patch);
+  if (!alignment.usable() && robot.at.pose.patch != robot.last_kept) {
     // The older ground on which it was taken to stand does not fit: back to the patch that it kept last.
-    const UncertainPose2 before{T_last_anchor * robot.pose.T_patch_robot, turned(robot.covariance, T_last_anchor.yaw)};
+    const UncertainPose2 before{T_last_anchor * robot.at.pose.T_patch_robot,
+                                turned(robot.at.covariance, T_last_anchor.yaw)};
     return match_from(robot, before, points, prior, motion, 0, laser).value_or(alignment);
   }
   const bool was_asked = std::abs(robot.since_kept.path - robot.asked_odometry) < kAskedEvery;
@@ -128,7 +127,7 @@ Motion Mapper::State::advance(RobotState& robot, const Event& event, const Scan&
   ++counts.scans;
   if (motion.impossible) ++counts.odometry_jumps;
   if (!scan.has_odometry) ++counts.scans_without_odometry;
-  if (!robot.pose.patch.valid()) return motion;
+  if (!robot.at.pose.patch.valid()) return motion;
   robot.since_kept.add(motion.T_last_now);
   robot.since_known.add(motion.T_last_now);
   return motion;
@@ -137,7 +136,7 @@ Motion Mapper::State::advance(RobotState& robot, const Event& event, const Scan&
 void Mapper::State::follow(RobotState& robot, const Motion& motion, const PosePrior& prior, const Alignment& alignment,
                            const LaserModel& laser) {
   constexpr double kShareMemory = 0.1;
-  Pose2& T_anchor_robot = robot.pose.T_patch_robot;
+  Pose2& T_anchor_robot = robot.at.pose.T_patch_robot;
   Matrix3d information = prior.information;
   if (alignment.usable()) {
     ++counts.matched;
@@ -149,33 +148,33 @@ void Mapper::State::follow(RobotState& robot, const Motion& motion, const PosePr
     ++counts.predicted;
     T_anchor_robot = prior.T_reference_scan;
   }
-  robot.covariance = information.inverse();
+  robot.at.covariance = information.inverse();
 }
 
 void Mapper::State::note_known_ground(RobotState& robot, const Alignment& alignment) {
   constexpr double kAnew = 3;    // metres
   constexpr double kSure = 0.1;  // of the interval, metres
-  if (alignment.status != AlignStatus::aligned || robot.pose.patch == robot.last_kept ||
+  if (alignment.status != AlignStatus::aligned || robot.at.pose.patch == robot.last_kept ||
       robot.since_known.path < kAnew) {
     return;
   }
-  if (confidence_interval(robot.covariance).position > kSure) return;
-  robot.since_known = DrivenWay(robot.pose, robot.covariance);
+  if (confidence_interval(robot.at.covariance).position > kSure) return;
+  robot.since_known = DrivenWay(robot.at.pose, robot.at.covariance);
 }
 
 std::optional<LocalPatch> Mapper::State::find_ground(const RobotState& robot) const {
   // Another patch of the same place may know what its oldest does not.
-  for (const LocalMap* among : {&robot.places, &robot.local}) {
-    if (const auto ground = choose_anchor(map, *among, robot.pose.T_patch_robot)) return (*among)[*ground];
+  for (const LocalMap* among : {&robot.at.places, &robot.at.local}) {
+    if (const auto ground = choose_anchor(map, *among, robot.at.pose.T_patch_robot)) return (*among)[*ground];
   }
   return std::nullopt;
 }
 
 void Mapper::State::stand_on(RobotState& robot, const LocalPatch& ground) {
-  if (ground.patch == robot.pose.patch) return;
-  robot.pose = {ground.patch, ground.T_anchor_patch.inverse() * robot.pose.T_patch_robot};
-  robot.covariance = turned(robot.covariance, -ground.T_anchor_patch.yaw);
-  robot.stale = true;
+  if (ground.patch == robot.at.pose.patch) return;
+  robot.at.pose = {ground.patch, ground.T_anchor_patch.inverse() * robot.at.pose.T_patch_robot};
+  robot.at.covariance = turned(robot.at.covariance, -ground.T_anchor_patch.yaw);
+  robot.at.stale = true;
 }
 
 }  // namespace helicoid
