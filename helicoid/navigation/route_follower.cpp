@@ -99,7 +99,7 @@ FollowStep RouteFollower::drive(const Map& map, const ManifoldPose& robot) {
     if (!round.empty()) {
       way = std::move(round);
     } else if (const std::optional<Vector2d> side = place_to_the_right(way)) {
-      step.command = drive_to(*side, to_goal);
+      step.command = drive_to(*side, to_goal, radius());
       return step;
     }
   }
@@ -214,13 +214,14 @@ double RouteFollower::speed_among_movers() const {
 
 /// Pure pursuit (Coulter 1992).
 DriveCommand RouteFollower::pursue(std::span<const Vector2d> way, double left) {
-  if (const auto target = farthest_free(way, radius() + kBerth, kShortestBerth)) return drive_to(*target, left);
+  const double wide = radius() + kBerth;
+  if (const auto target = farthest_free(way, wide, kShortestBerth)) return drive_to(*target, left, wide);
   if (const auto target = farthest_free(way, radius(), kShortest)) {
-    const DriveCommand command = drive_to(widest_beside(*target), left);
+    const DriveCommand command = drive_to(widest_beside(*target), left, radius());
     // Straight there is room, and by the arc that it would drive there is none.
     if (command != DriveCommand{}) return command;
   }
-  if (const auto target = off_what_is_near(way)) return drive_to(*target, left);
+  if (const auto target = off_what_is_near(way)) return drive_to(*target, left, radius());
   // Up to what stands there, looking at it.
   return turn_to(bearing_of(point_along(way, options_.look_ahead).p));
 }
@@ -230,12 +231,14 @@ DriveCommand RouteFollower::turn_to(double bearing) {
   return {0, std::clamp(kTurnGain * bearing, -options_.top_turn_rate, options_.top_turn_rate)};
 }
 
-DriveCommand RouteFollower::drive_to(const Vector2d& target, double left) {
+/// By an arc that keeps so wide from everything: that to a target aside sets out along the robot's heading, and may
+/// come nearer to a wall than the straight way does.
+DriveCommand RouteFollower::drive_to(const Vector2d& target, double left, double wide) {
   const double bearing = bearing_of(target);
   turning_ = std::abs(bearing) > (turning_ ? 0.3 * options_.turn_in_place : options_.turn_in_place);
   if (turning_) return turn_to(bearing);
   const double curvature = 2 * std::sin(bearing) / std::max(target.norm(), 0.2);
-  const double free = obstacles_.free_arc(curvature, radius(), 1.0);
+  const double free = obstacles_.free_arc(curvature, wide, 1.0);
   const double room = obstacles_.clearance({0, 0}, 1) - radius();
   double speed = options_.top_speed * (1 - std::abs(bearing) / (2 * options_.turn_in_place));
   // Whoever comes towards the robot brakes as well: each has half the way.

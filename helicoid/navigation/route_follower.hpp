@@ -79,7 +79,7 @@ class RouteFollower {
   [[nodiscard]] double radius() const { return options_.robot_radius + options_.margin; }
   [[nodiscard]] DriveCommand pursue(std::span<const Vector2d> way, double left);
   [[nodiscard]] DriveCommand turn_to(double bearing);
-  [[nodiscard]] DriveCommand drive_to(const Vector2d& target, double left);
+  [[nodiscard]] DriveCommand drive_to(const Vector2d& target, double left, double wide);
   [[nodiscard]] FollowStep drive(const Map& map, const ManifoldPose& robot);
   [[nodiscard]] bool is_as_near_as_it_gets(const RouteAhead& ahead);
   [[nodiscard]] FollowStep finish(const Map& map, const ManifoldPose& robot, double left);

@@ -98,6 +98,18 @@ TEST(RouteFollower, PassesAGapWhereItIsWidest) {
   }
 }
 
+TEST(RouteFollower, KeepsAsWideOfAWallWhileItTurnsAwayAsWhenItIsTurned) {
+  // Its way leads straight away from the wall; the arc on which it turns there first comes nearer.
+  for (const double y : {0.27, 0.28, 0.29}) {
+    for (double heading = -0.65; heading < 0; heading += 0.05) {
+      Floor floor = corridor(3);
+      floor.send({5, y, heading}, {10, 1.2});
+      EXPECT_LT(floor.run(40), 20) << y << " " << heading;
+      EXPECT_GE(floor.drivers[0].closest, 0.255) << y << " " << heading;
+    }
+  }
+}
+
 TEST(RouteFollower, ArrivesBesideAGoalAtWhichThereIsNoRoom) {
   Floor floor = corridor(2);
   floor.send({1, 1, 0}, {6, 1});
