@@ -291,10 +291,9 @@ void TeamPilot::compare_islands(double now) {
 void TeamPilot::settle(double now, const Settled& settled) {
   const Hypothesis& h = mapper_.ledger()[settled.doubt];
   const bool met = settled.outcome == MeetingOutcome::met;
-  const Decision decision =
-      decision_about(map(), h, met ? HypothesisState::accepted : HypothesisState::distinct, settled.reason);
   journal_.push_back({now, JournalKind::rendezvous, name(settled.watcher), settled.reason});
-  mapper_.decide(decision);
+  if (!h.is_undecided()) return;
+  mapper_.decide(decision_about(map(), h, met ? HypothesisState::accepted : HypothesisState::distinct, settled.reason));
 }
 
 }  // namespace helicoid

@@ -21,12 +21,22 @@ Pose2 correction_of(const Map& map, const Doubt& doubt) {
   return map.T_plane_patch(doubt.a) * doubt.T_a_b.T_a_b * map.T_plane_patch(doubt.b).inverse();
 }
 
+bool is_small(const Pose2& off, double most) {
+  constexpr double kTurn = 0.35;  // radians
+  return off.distance() <= most && std::abs(off.yaw) <= kTurn;
+}
+
 /// True if both would lay one part of the map over another in the same way, seen from the second doubt's place.
 bool lays_alike(const Map& map, const Doubt& first, const Doubt& second, const Pose2& T_by_first, double alike) {
-  constexpr double kTurn = 0.35;  // radians
   const Pose2 T_plane_b = map.T_plane_patch(second.b);
   const Pose2 off = (T_by_first * T_plane_b).inverse() * correction_of(map, second) * T_plane_b;
-  return map.island_of(first.a) != map.island_of(first.b) && off.distance() <= alike && std::abs(off.yaw) <= kTurn;
+  return map.island_of(first.a) != map.island_of(first.b) && is_small(off, alike);
+}
+
+/// True if the map has the two places where the doubt has them.
+bool is_as_doubted(const Map& map, const Doubt& doubt, double same) {
+  return map.island_of(doubt.a) == map.island_of(doubt.b) &&
+         is_small(map.T_plane_patch(doubt.b).inverse() * map.T_plane_patch(doubt.a) * doubt.T_a_b.T_a_b, same);
 }
 
 Settled met(const Meeting& meeting) {
@@ -39,8 +49,8 @@ Settled met(const Meeting& meeting) {
   return settled;
 }
 
-/// Robots that saw each other have joined the islands of the two places, and the doubt has outlived it: the map has the
-/// places where the doubt has them.
+/// Robots that saw each other have joined the islands of the two places as the doubt has it. The map may have taken the
+/// doubt itself as well then, as evidence, so that it is open no longer.
 Settled settled_on_the_way(const Meeting& meeting) {
   Settled settled = met(meeting);
   settled.by_chance = !meeting.brought_together;
@@ -231,12 +241,12 @@ std::vector<Settled> RendezvousDesk::step(double now, const Map& map, std::span<
     };
     meeting.watcher = member_of(meeting.watcher_robot);
     meeting.shown = member_of(meeting.shown_robot);
-    if (doubt == doubts.end()) return true;
-    if (meeting.between_islands && map.island_of(meeting.doubt.a) == map.island_of(meeting.doubt.b)) {
+    if (meeting.between_islands && is_as_doubted(map, meeting.doubt, options_.same)) {
       past_of(meeting.doubt).settled = true;
       settled.push_back(settled_on_the_way(meeting));
       return true;
     }
+    if (doubt == doubts.end()) return true;
     if (meeting.watcher == members.size() || meeting.shown == members.size() || now > meeting.deadline) {
       Past& past = past_of(meeting.doubt);
       ++past.failures;

@@ -22,6 +22,7 @@ struct RendezvousOptions {
   double range_error = 0.6;  ///< a sighting that is farther off what the doubt predicts is of another place, metres
   double patience = 20;      ///< beside the time for the way, before a meeting is given up, seconds
   double slowest = 0.20;     ///< metres a second
+  double same = 1.0;         ///< the map has a doubt's places where that has them, to this, metres
   double alike = 3.0;        ///< doubts both of whose places are this near to another's ask the same, metres
   double rest = 60;          ///< before it is tried again, seconds
   int most_tries = 2;
@@ -92,7 +93,8 @@ class RendezvousDesk {
   void begin(double now, const Map& map, const Doubt& doubt, const Posts& posts, const Pairing& pair,
              std::span<const TeamMember> members);
   /// Looks after the meetings: what has been settled since the last call. `doubts`: all that are open, which those are
-  /// not that the map contradicts; meetings about others are ended.
+  /// not that the map contradicts or has taken; meetings about others are ended, and settled if the map has come to
+  /// have their two places as one.
   std::vector<Settled> step(double now, const Map& map, std::span<const TeamMember> members,
                             std::span<const Travel> travel, std::span<const Doubt> doubts);
 

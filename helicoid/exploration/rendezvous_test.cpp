@@ -131,32 +131,40 @@ TEST(Rendezvous, DoubtsThatWouldJoinTwoIslandsAlikeAskTheSame) {
   EXPECT_TRUE(two.desk.is_open(1, two.builder.map, two.second));
 }
 
-/// The second island lies in the first one's plane as the first doubt has it.
-void join(TwoIslands& two) {
+/// The second island lies in the first one's plane as the first doubt has it, or aside.
+void join(TwoIslands& two, const Pose2& T_a_aside = {}) {
   const Map& map = two.builder.map;
   const Pose2 T_into_from =
-      map.T_plane_patch(two.first.a) * two.first.T_a_b.T_a_b * map.T_plane_patch(two.first.b).inverse();
+      map.T_plane_patch(two.first.a) * T_a_aside * two.first.T_a_b.T_a_b * map.T_plane_patch(two.first.b).inverse();
   MapEditor(two.builder.map).merge_islands(map.island_of(two.first.a), map.island_of(two.first.b), T_into_from);
 }
 
-TEST(Rendezvous, IslandsThatAreJoinedAsTheDoubtHasItSettleThatThePlacesAreOne) {
-  TwoIslands two;
+/// What is settled while nobody has got to a post.
+std::vector<Settled> settled_under_way(TwoIslands& two, std::span<const Doubt> open) {
   const std::vector<Travel> nobody(2, [](const ManifoldPoint&) { return HUGE_VAL; });
-  two.desk.saw({1.5, RobotId{1}, RobotId{4}, 3.0, true});
-  join(two);
-  const std::vector<Settled> settled = two.desk.step(2, two.builder.map, two.members, nobody, {&two.first, 1});
-  ASSERT_THAT(settled, SizeIs(1));
-  EXPECT_EQ(settled[0].outcome, MeetingOutcome::met);
-  EXPECT_FALSE(settled[0].by_chance) << "one of the pair was seen";
-  EXPECT_THAT(two.desk.meetings(), IsEmpty());
+  return two.desk.step(2, two.builder.map, two.members, nobody, open);
+}
+
+TEST(Rendezvous, IslandsThatAreJoinedAsTheDoubtHasItSettleThatThePlacesAreOne) {
+  for (const bool is_open : {true, false}) {  // or the map has taken the doubt itself by then
+    TwoIslands two;
+    two.desk.saw({1.5, RobotId{1}, RobotId{4}, 3.0, true});
+    join(two);
+    const std::vector<Settled> settled = settled_under_way(two, {&two.first, is_open ? 1U : 0U});
+    ASSERT_THAT(settled, SizeIs(1)) << is_open;
+    EXPECT_EQ(settled[0].outcome, MeetingOutcome::met);
+    EXPECT_FALSE(settled[0].by_chance) << "one of the pair was seen";
+    EXPECT_THAT(two.desk.meetings(), IsEmpty());
+  }
 }
 
 TEST(Rendezvous, ADoubtThatIsGoneIsNotMetAboutAndNothingIsSettled) {
-  TwoIslands two;
-  const std::vector<Travel> nobody(2, [](const ManifoldPoint&) { return HUGE_VAL; });
-  join(two);
-  EXPECT_THAT(two.desk.step(2, two.builder.map, two.members, nobody, {}), IsEmpty());
-  EXPECT_THAT(two.desk.meetings(), IsEmpty());
+  for (const bool are_joined : {false, true}) {  // otherwise than the doubt has it
+    TwoIslands two;
+    if (are_joined) join(two, {4, 0, 0});
+    EXPECT_THAT(settled_under_way(two, {}), IsEmpty());
+    EXPECT_THAT(two.desk.meetings(), IsEmpty());
+  }
 }
 
 TEST(Rendezvous, AbsenceDoesNotCountWhereTheRobotMightHaveBeenOutOfView) {
