@@ -1,5 +1,6 @@
 #include "helicoid/manifold/seen_free.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace helicoid {
@@ -46,6 +47,28 @@ int count_contradictions(const Patch& patch, const ScanPoints& points, const Pos
 
 int count_contradictions(const Patch& a, const Patch& b, const Pose2& T_a_b, double depth) {
   return count_contradictions(a, b.points, T_a_b, depth) + count_contradictions(b, a.points, T_a_b.inverse(), depth);
+}
+
+namespace {
+
+int count_across(const Patch& patch, const ScanPoints& points, const Pose2& T_patch_points, double depth) {
+  constexpr float kGrazing = 0.05F;  // cosine; nearer to the wall's own direction a beam tells nothing of its depth
+  const SeenFreeFrom free(patch, T_patch_points);
+  const Eigen::Vector2f laser = (T_patch_points.inverse() * patch.scan.T_robot_laser).translation().cast<float>();
+  int count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points.weight[i] <= 0) continue;
+    const Eigen::Vector2f p(points.x[i], points.y[i]);
+    const float across = std::abs((p - laser).normalized().dot(Eigen::Vector2f(points.nx[i], points.ny[i])));
+    count += free.is_deep(p, static_cast<float>(depth) / std::max(across, kGrazing)) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+int count_contradictions_across(const Patch& a, const Patch& b, const Pose2& T_a_b, double depth) {
+  return count_across(a, b.points, T_a_b, depth) + count_across(b, a.points, T_a_b.inverse(), depth);
 }
 
 }  // namespace helicoid

@@ -56,4 +56,8 @@ class SeenFreeFrom {
 /// The same of two patches, either's points in what the other saw as free.
 [[nodiscard]] int count_contradictions(const Patch& a, const Patch& b, const Pose2& T_a_b, double depth);
 
+/// The same, that deep across the surfaces on which the points lie: where one view looks along a wall, what the wall is
+/// off by is many times as much along the beams.
+[[nodiscard]] int count_contradictions_across(const Patch& a, const Patch& b, const Pose2& T_a_b, double depth);
+
 }  // namespace helicoid

@@ -46,6 +46,20 @@ TEST(SeenFree, AWallInFrontOfThatWhichWasSeenIsContradicted) {
   EXPECT_EQ(count_contradictions(map.patch(after), map.patch(before).points, {}, 0.15), 0);
 }
 
+TEST(SeenFree, AWallSeenAlongIsAcrossItNoDeeperThanItIsOff) {
+  synthetic::Builder builder("robot1", 721);
+  const auto corridor = synthetic::rectangle(0, 0, 20, 2);
+  const PatchId there = builder.add(corridor, {3, 1, 0});
+  const PatchId back = builder.add(corridor, {15, 1, std::numbers::pi});
+  const Patch& a = builder.map.patch(there);
+  const Patch& b = builder.map.patch(back);
+  const auto aside = [](double off) { return Pose2{12, off, std::numbers::pi}; };
+  EXPECT_EQ(count_contradictions_across(a, b, aside(0), 0.35), 0);
+  EXPECT_GT(count_contradictions(a, b, aside(0.25), 0.35), 30) << "along the beams it is deep";
+  EXPECT_EQ(count_contradictions_across(a, b, aside(0.25), 0.35), 0);
+  EXPECT_GT(count_contradictions_across(a, b, aside(0.6), 0.35), 30) << "another corridor's wall";
+}
+
 TEST(SeenFree, ABeamEndsAtWhatItSawAndNotBeforeOrBehindIt) {
   synthetic::Builder builder;
   const PatchId id = builder.add(synthetic::rectangle(0, 0, 6, 4), {1, 2, 0});

@@ -133,9 +133,12 @@ struct Objections {
 Objections object_to(const Map& map, const InformationGraph& graph, ExactPoses& exact, const Ledger& ledger,
                      const SightingLog& log, const SightingRecord& record, const SeenCandidate& of) {
   Objections found;
-  const Pose2 T_map = map.project(record.observer_at.pose).inverse() * map.project(of.at.pose);
-  const SharedGround ground = compare_ground(map, graph, {record.observer_at.pose, of.observers_side},
-                                             {of.at.pose, of.observed_side}, {T_map, Matrix3d::Zero()});
+  const std::optional<UncertainPose2> T_map = exact.between(record.observer_at, of.at);
+  SharedGround ground;
+  if (T_map) {
+    ground = compare_ground(map, graph, {record.observer_at.pose, of.observers_side}, {of.at.pose, of.observed_side},
+                            *T_map);
+  }
   if (ground.verdict == Verdict::contradicted) {
     found.by_scans = fmt::format("what was mapped later contradicts it: {} points agree, {} lie deep in free space",
                                  ground.agreeing, ground.against);

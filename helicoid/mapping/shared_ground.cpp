@@ -68,7 +68,7 @@ SharedGround compare_at(const Map& map, std::span<const NearPatch> about_p, std:
       if (supposed.distance() > options.most_apart) continue;
       const Fitted fitted = fit_about(map.patch(a.patch), map.patch(b.patch), supposed, information);
       ground.agreeing += fitted.correspondences;
-      ground.against += count_contradictions(map.patch(a.patch), map.patch(b.patch), fitted.T_a_b, options.deep);
+      ground.against += count_contradictions_across(map.patch(a.patch), map.patch(b.patch), fitted.T_a_b, options.deep);
     }
   }
   if (std::abs(ground.agreeing - ground.against) >= options.least_majority) {

@@ -27,7 +27,7 @@ struct SharedGroundOptions {
   double most_apart = 8;    ///< two patches that are compared, metres
   std::size_t patches = 6;  ///< of either place at most, the nearest
   int least_majority = 50;  ///< points; less is no evidence
-  double deep = 0.35;       ///< metres
+  double deep = 0.35;       ///< across the surface on which a point lies, metres
 };
 
 /// Compares the patches about p, as far as the map is sure of them there (eq. 12), with those about q; `T_p_q` relates
