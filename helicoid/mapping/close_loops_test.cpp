@@ -105,8 +105,9 @@ std::vector<Decision> about_first_set(const Mapper& mapper, HypothesisState stat
 
 TEST(Loops, WhatAnOperatorRejectsIsNeverActedOnNorWhatSaysTheSame) {
   const Mapper closed = map_drive(rounds(), true);
-  const std::vector<Decision> decisions = about_first_set(closed, HypothesisState::rejected);
+  std::vector<Decision> decisions = about_first_set(closed, HypothesisState::rejected);
   ASSERT_FALSE(decisions.empty());
+  for (Decision& decision : decisions) decision.reason = "there is a lift between them";
   const Mapper replay = map_drive(rounds(), true, decisions);
   std::size_t met = 0;
   for (std::size_t i = 0; i < replay.ledger().size(); ++i) {
@@ -115,6 +116,7 @@ TEST(Loops, WhatAnOperatorRejectsIsNeverActedOnNorWhatSaysTheSame) {
       ++met;
       EXPECT_EQ(h.state, HypothesisState::rejected);
       EXPECT_EQ(h.decided_by, DecidedBy::operator_);
+      EXPECT_EQ(h.reason, "there is a lift between them");
     }
     if (h.state != HypothesisState::accepted) continue;
     for (const std::size_t k : h.supports) EXPECT_FALSE(replay.ledger()[k].is_withheld()) << i << " agrees with " << k;

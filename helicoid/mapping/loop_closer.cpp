@@ -170,7 +170,9 @@ bool LoopCloser::follow_operator(const Map& map, std::size_t entry) {
   if (const Decision* decision = find_decision(mapper_.decisions, map, h)) {
     h.state = decision->state;
     h.decided_by = DecidedBy::operator_;
-    h.reason = h.state == HypothesisState::open ? "left open" : "decided without looking at others";
+    h.reason = h.state == HypothesisState::open ? "left open"
+               : decision->reason.empty()       ? "decided without looking at others"
+                                                : decision->reason;
   } else {
     const auto withheld =
         std::find_if(h.supports.begin(), h.supports.end(), [&](std::size_t i) { return ledger_[i].is_withheld(); });
@@ -202,7 +204,7 @@ void LoopCloser::withhold_with(std::size_t entry, std::size_t decided) {
   h.state = other.state;
   h.decided_by = DecidedBy::operator_;
   h.decided_with = other.decided_with.value_or(decided);
-  h.reason = fmt::format("says the same as entry {}, about which the operator decided", *h.decided_with);
+  h.reason = fmt::format("says the same as entry {}, which was decided", *h.decided_with);
 }
 
 std::vector<std::size_t> LoopCloser::accept(const std::vector<std::size_t>& agreeing) {
