@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "apps/chart.hpp"
 #include "apps/experiments/list.hpp"
@@ -16,6 +17,7 @@ namespace helicoid {
 namespace {
 
 constexpr double kPeriod = 0.2;  // five scans a second each
+constexpr double kLongest = 3;   // times the time asked for, while not all have seen one another
 
 /// Drives where there is room and turns where there is none: enough to get about in a hall.
 class Wanderer {
@@ -73,6 +75,25 @@ struct SwarmRun {
   std::size_t contacts = 0;
 };
 
+/// Who has seen whom, by themselves or in turn: until all have, there is nothing that could make one island of them.
+class Acquaintance {
+ public:
+  explicit Acquaintance(std::size_t robots) : group_(robots) { std::iota(group_.begin(), group_.end(), 0U); }
+
+  void note(std::size_t observer, const Sighting& sighting) {
+    for (std::size_t i = 0; i < group_.size(); ++i) {
+      if (simulated_robot_name(i) != sighting.observed) continue;
+      const std::size_t joined = group_[i];
+      std::replace(group_.begin(), group_.end(), joined, group_[observer]);
+    }
+  }
+
+  [[nodiscard]] bool is_complete() const { return std::set(group_.begin(), group_.end()).size() == 1; }
+
+ private:
+  std::vector<std::size_t> group_;  ///< by robot: alike for those that have seen one another
+};
+
 Result<LiveSimulation> enter(const World& world, std::size_t robots, std::uint64_t seed) {
   StartOptions starts;
   starts.robots = robots;
@@ -107,7 +128,8 @@ Result<SwarmRun> map_swarm(const World& world, std::size_t robots, double second
   if (!simulation) return tl::unexpected(simulation.error());
   const Result<LaserModel> laser = load_laser("sick-lms200", simulation->laser());
   if (!laser) return tl::unexpected(laser.error());
-  SwarmRun run{{Mapper(), {}, 0}, {}, {}, {}, seconds, 0};
+  SwarmRun run{{Mapper(), {}, 0}, {}, {}, {}, 0, 0};
+  Acquaintance acquaintance(robots);
   std::vector<Wanderer> wanderers;
   Random random(seed);
   for (std::size_t i = 0; i < robots; ++i) {
@@ -115,14 +137,16 @@ Result<SwarmRun> map_swarm(const World& world, std::size_t robots, double second
     run.mapped.tracks.push_back({simulated_robot_name(i), {}, {}});
     wanderers.emplace_back(random.split());
   }
-  while (simulation->now() < seconds - 0.5 * kPeriod) {
+  const auto is_over = [&](double now) { return now >= (acquaintance.is_complete() ? 1 : kLongest) * seconds; };
+  while (!is_over(simulation->now() + 0.5 * kPeriod)) {
     const auto second = static_cast<std::size_t>(simulation->now());
     if (run.second_s.size() <= second) run.second_s.resize(second + 1, 0.0);
     for (const LiveEvent& event : simulation->tick()) {
       take(run, event);
+      const std::size_t robot = event.event.robot.index();
+      if (const auto* sighting = std::get_if<Sighting>(&event.event.body)) acquaintance.note(robot, *sighting);
       const auto* scan = std::get_if<Scan>(&event.event.body);
       if (scan == nullptr) continue;
-      const std::size_t robot = event.event.robot.index();
       simulation->command(robot, wanderers[robot].decide(*scan, simulation->laser()));
     }
     run.islands.emplace_back(simulation->now(), static_cast<double>(run.mapped.map().islands().size()));
@@ -130,6 +154,7 @@ Result<SwarmRun> map_swarm(const World& world, std::size_t robots, double second
   const double before = thread_cpu_seconds();
   run.mapped.mapper.finish();
   run.mapped.cpu_s += thread_cpu_seconds() - before;
+  run.seconds = simulation->now();
   run.contacts = simulation->collisions();
   return run;
 }
@@ -168,7 +193,8 @@ Outcome judge(const SwarmRun& run, std::uint64_t seed) {
   RelationErrorOptions between;
   between.between_robots = true;
   const RelationError error = relation_error(run.mapped, seed, between);
-  Outcome outcome{{{"mapping_load_percent", 100 * run.mapped.cpu_s / run.seconds},
+  Outcome outcome{{{"driven_s", run.seconds},
+                   {"mapping_load_percent", 100 * run.mapped.cpu_s / run.seconds},
                    {"busiest_second_s", *std::max_element(run.second_s.begin(), run.second_s.end())},
                    {"scan_p50_us", quantile(run.scan_us, 0.5)},
                    {"scan_p99_us", quantile(run.scan_us, 0.99)},
@@ -204,10 +230,11 @@ Experiment swarm_experiment() {
   e.question = "Does mapping keep up with fifty robots?";
   e.method =
       "Fifty robots in a hall of 64 by 44 m (depot) scan five times a second each for five minutes while they wander "
-      "about; they begin in two groups, nobody knows where, and recognise one another within 8 m. The load is the "
-      "mapper's CPU time, its last fit included, over the time that the team drove: 100 percent is one core of two. A "
-      "scan's time is the CPU time of its whole step, with all that it set off; its growth is the last fifth of the "
-      "scans over the second. Ten robots for comparison.";
+      "about; they begin in two groups, nobody knows where, and recognise one another within 8 m. As long as no "
+      "sighting has led from one group to the other there is nothing to join them by: they drive on until one has, "
+      "for fifteen minutes at most. The load is the mapper's CPU time, its last fit included, over the time that the "
+      "team drove: 100 percent is one core of two. A scan's time is the CPU time of its whole step, with all that it "
+      "set off; its growth is the last fifth of the scans over the second. Ten robots for comparison.";
   e.bars = {{"mapping_load_percent", std::nullopt, 200.0, false, true},
             {"islands_count", std::nullopt, 1.0, false},
             {"missing_relations_count", std::nullopt, 0.0, false}};
