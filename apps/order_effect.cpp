@@ -135,6 +135,7 @@ OrderEffect compare_orders(const Mapper& heard, const Mapper& stamped) {
   }
   effect.mean_m /= std::max(count, 1.0);
   effect.mean_deg /= std::max(count, 1.0);
+  for (const RobotRecord& robot : heard.map().robots()) effect.scans_heard.push_back(robot.trajectory.size());
   return effect;
 }
 

@@ -1,6 +1,8 @@
 // What the order in which events were heard does to a map: the same events mapped twice.
 #pragma once
 
+#include <vector>
+
 #include "helicoid/mapping/mapper.hpp"
 
 namespace helicoid {
@@ -18,9 +20,10 @@ struct OrderEffect {
   double farthest_m = 0;
   double mean_deg = 0;
   double farthest_deg = 0;
+  std::vector<std::size_t> scans_heard;  ///< by robot: that the map as it was heard has
 };
 
-/// Both know the same robots, in the same order. Scans that only one of them has are left out.
+/// Both know the same robots, in the same order. Poses of scans that only one of them has are left out.
 [[nodiscard]] OrderEffect compare_orders(const Mapper& heard, const Mapper& stamped);
 
 }  // namespace helicoid

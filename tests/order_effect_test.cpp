@@ -64,6 +64,17 @@ TEST(OrderEffect, TellsThatRobotsOfOneMapAreApartInTheOther) {
   EXPECT_FALSE(compare_orders(together, apart).same_islands);
 }
 
+TEST(OrderEffect, CountsTheScansThatWereHeard) {
+  std::vector<Event> events = two_in_a_box(20);
+  const Mapper stamped = map_of(events);
+  const auto is_of_first = [](const Event& e) { return std::holds_alternative<Scan>(e.body) && e.robot.index() == 0; };
+  const auto of_first = static_cast<std::size_t>(std::count_if(events.begin(), events.end(), is_of_first));
+  EXPECT_EQ(compare_orders(stamped, stamped).scans_heard.at(0), of_first);
+  const auto never_heard = std::find_if(events.rbegin(), events.rend(), is_of_first);
+  events.erase(std::next(never_heard).base());
+  EXPECT_EQ(compare_orders(map_of(events), stamped).scans_heard.at(0), of_first - 1);
+}
+
 TEST(OrderEffect, IsAsLargeAsARobotIsOffInOneOfThem) {
   std::vector<Event> events = two_in_a_box(20);
   const Mapper stamped = map_of(events);

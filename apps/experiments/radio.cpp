@@ -56,13 +56,14 @@ Result<Outcome> cut_off(const std::string& name, std::uint64_t seed) {
   if (!truth) return tl::unexpected(truth.error());
   const Map& map = run->map.mapper.map();
   const MapQuality quality = truth->judge(map, run->recording.tracks());
-  const auto said = static_cast<double>(run->recording.tracks()[kDying].stamps.size());
-  const auto kept = static_cast<double>(map.robots()[kDying].trajectory.size());
   const OrderEffect& order = *run->order;
+  const std::size_t taken = run->recording.tracks()[kDying].stamps.size();
+  const std::size_t kept = std::min(order.scans_heard[kDying], map.robots()[kDying].trajectory.size());
   return Outcome{{{"mapped_percent", 100 * quality.mapped_fraction},
                   {"explored_count", run->last_plan.end_state == EndState::explored ? 1.0 : 0.0},
                   {"islands_count", static_cast<double>(map.islands().size())},
-                  {"dead_robots_scans_lost_count", said - kept},
+                  {"dead_robots_scans_count", static_cast<double>(taken)},
+                  {"dead_robots_scans_lost_count", static_cast<double>(taken) - static_cast<double>(kept)},
                   {"collisions_count", static_cast<double>(run->contacts.size())},
                   {"same_islands_count", order.same_islands ? 1.0 : 0.0},
                   {"closures_heard_count", static_cast<double>(order.closures_heard)},
@@ -89,10 +90,11 @@ Experiment radio_experiment() {
       "The office of experiment fig6, four robots from two doors. First undisturbed, to know how long that takes; then "
       "without radio for the middle third of that time, one robot dead after half of it and one that comes after a "
       "quarter. Without radio each robot explores by itself with a map of its own; afterwards what it has seen arrives "
-      "late and in bulk. Mapped: of the floor that the living can reach, whose way the dead one may bar. The events "
-      "are mapped twice, as they were heard and by their stamps (as `map` does with the logs): islands, how far the "
-      "maps disagree about the places of any closure of either (elsewhere: by more than 0.10 m, and by more than the "
-      "other map says itself, 99 %), and how far the poses lie apart after one rigid transform an island.";
+      "late and in bulk. Mapped: of the floor that the living can reach, whose way the dead one may bar. Lost: scans "
+      "that the dead one took and that the map of what was heard or the map of the logs does not have. The events are "
+      "mapped twice, as they were heard and by their stamps (as `map` does with the logs): islands, how far the maps "
+      "disagree about the places of any closure of either (elsewhere: by more than 0.10 m, and by more than the other "
+      "map says itself, 99 %), and how far the poses lie apart after one rigid transform an island.";
   e.bars = {{"mapped_percent", 99.0, std::nullopt, false},
             {"explored_count", 1.0, std::nullopt, false},
             {"dead_robots_scans_lost_count", std::nullopt, 0.0, false},
