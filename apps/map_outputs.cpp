@@ -12,6 +12,7 @@
 #include "helicoid/io/graph_file.hpp"
 #include "helicoid/io/trajectory.hpp"
 #include "helicoid/manifold/coverage_sweep.hpp"
+#include "helicoid/navigation/driven_neighbours.hpp"
 #include "helicoid/store/map_file.hpp"
 
 namespace helicoid {
@@ -94,7 +95,8 @@ SketchDrawing sketch_of(const Map& map, const MapReport& report, const IslandRep
   SketchDrawing drawing;
   drawing.layers.push_back({"free space", make_sketch(stacked.grid)});
   drawing.ways = ways_over(map, island.island.patches);
-  drawing.topology = make_topology(map, island.island.patches, report.neighbours, island.sheets);
+  const Neighbours driven = DrivenNeighbours().add_to(map, report.neighbours);
+  drawing.topology = make_topology(map, island.island.patches, driven, island.sheets);
   return drawing;
 }
 
