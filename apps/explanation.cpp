@@ -74,11 +74,6 @@ std::size_t ties_between(const Map& map, PatchId a, PatchId b) {
   }));
 }
 
-Island island_with(const Map& map, PatchId id) {
-  std::vector<Island> islands = map.islands();
-  return *std::find_if(islands.begin(), islands.end(), [&](const Island& i) { return i.id == map.island_of(id); });
-}
-
 /// How well b is known relative to a, midway between them, by these of an island's relations; nothing if they do not
 /// tie the two together.
 std::optional<ConfidenceInterval> known_by(const Map& map, const Island& island, PatchId a, PatchId b,
@@ -253,7 +248,7 @@ Explanation explain_places(const Map& map, const std::vector<RecordedEntry>& led
         "They are on different islands: the map does not know how they lie. A sighting, an operator or --join evidence "
         "would join them.");
   } else {
-    const Island island = island_with(map, a.patch);
+    const Island island = map.island_with(a.patch);
     const Pose2 T_a_b =
         a.T_patch_place.inverse() * map.T_plane_patch(a.patch).inverse() * map.T_plane_patch(b.patch) * b.T_patch_place;
     const auto known = known_by(map, island, a.patch, b.patch, graph_edges(map, island));

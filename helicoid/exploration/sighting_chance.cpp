@@ -37,11 +37,8 @@ Matrix3d root_of(const Matrix3d& covariance) {
 std::optional<StandingNoise> standing_beside(const Map& map, PatchId patch, const ManifoldPose& robot,
                                              const StandingNoise& on_its_sheet) {
   if (robot.patch == patch) return on_its_sheet;
-  const auto islands = map.islands();
-  const auto island =
-      std::find_if(islands.begin(), islands.end(), [&](const Island& i) { return i.id == map.island_of(patch); });
-  if (map.island_of(robot.patch) != island->id) return std::nullopt;
-  const StatedConfidence stated(map, *island);
+  if (map.island_of(robot.patch) != map.island_of(patch)) return std::nullopt;
+  const StatedConfidence stated(map, map.island_with(patch));
   if (!stated.is_determined()) return std::nullopt;
   const Matrix3d said = stated.between(patch, robot.patch).covariance;
   // Along either axis of the ellipse as along its longer one, and what a heading is off turns the robot's place.

@@ -1,5 +1,6 @@
 #include "helicoid/geometry/covariance.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 namespace helicoid {
@@ -23,6 +24,12 @@ UncertainPose2 compound(const UncertainPose2& ab, const UncertainPose2& bc) {
 UncertainPose2 invert(const UncertainPose2& ab) {
   const Inversion inverse = invert_with_jacobian(ab.T_a_b);
   return {inverse.T_b_a, transport(inverse.by_pose, ab.covariance)};
+}
+
+double disagreement(const UncertainPose2& first, const UncertainPose2& second) {
+  const Vector3d off(first.T_a_b.x - second.T_a_b.x, first.T_a_b.y - second.T_a_b.y,
+                     wrap_angle(first.T_a_b.yaw - second.T_a_b.yaw));
+  return off.dot((first.covariance + second.covariance).ldlt().solve(off));
 }
 
 ConfidenceInterval confidence_interval(const Matrix3d& covariance) {

@@ -20,6 +20,9 @@ struct UncertainPose2 {
 [[nodiscard]] Matrix3d transport(const Matrix3d& jacobian, const Matrix3d& covariance);
 /// The covariance of (x, y, yaw) with its axes turned by `yaw`.
 [[nodiscard]] Matrix3d turned(const Matrix3d& covariance, double yaw);
+/// chi^2 (three degrees of freedom) of the difference of two independent statements about one relative pose, neither of
+/// them certain.
+[[nodiscard]] double disagreement(const UncertainPose2& first, const UncertainPose2& second);
 
 /// How well a relative pose is known: two numbers, never one mixed (design 5.3; eq. 10 with c = 1.96).
 struct ConfidenceInterval {

@@ -28,6 +28,14 @@ std::vector<Island> Map::islands() const {
   return all;
 }
 
+Island Map::island_with(PatchId id) const {
+  Island island{island_of(id), {}};
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if (island_of_[i] == island.id) island.patches.push_back(make_id<PatchId>(i));
+  }
+  return island;
+}
+
 std::vector<PatchId> Map::patches_about(PatchId id, double radius) const {
   const Vector2d p = T_plane_patch(id).translation();
   std::vector<PatchId> about;

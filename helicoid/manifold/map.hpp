@@ -53,6 +53,8 @@ class Map {
 
   /// The islands, by id, empty ones left out.
   [[nodiscard]] std::vector<Island> islands() const;
+  /// The island that a patch is on.
+  [[nodiscard]] Island island_with(PatchId id) const;
   /// Island ids given out so far, those of emptied islands included.
   [[nodiscard]] std::size_t island_count() const { return island_count_; }
 

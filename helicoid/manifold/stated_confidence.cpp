@@ -1,6 +1,5 @@
 #include "helicoid/manifold/stated_confidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -65,9 +64,7 @@ UncertainPose2 StatedConfidence::with_floors(const UncertainPose2& ab, const Tak
 }
 
 bool is_beyond_said(const UncertainPose2& said, const Pose2& T_a_b) {
-  // In the first's frame, as the covariance.
-  const Vector3d off(said.T_a_b.x - T_a_b.x, said.T_a_b.y - T_a_b.y, wrap_angle(said.T_a_b.yaw - T_a_b.yaw));
-  return off.dot(said.covariance.ldlt().solve(off)) > kBeyond;
+  return disagreement(said, {T_a_b}) > kBeyond;
 }
 
 Vector3d twist_at(const Map& map, const StatedConfidence::TakenScan& scan) {

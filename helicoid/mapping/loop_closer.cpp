@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -28,13 +27,6 @@ constexpr const char* kWaits = "waits for others that agree";
 const BoundedPose* find(std::span<const BoundedPose> poses, PatchId id) {
   const auto at = std::find_if(poses.begin(), poses.end(), [&](const BoundedPose& p) { return p.pose == id.value; });
   return at == poses.end() ? nullptr : &*at;
-}
-
-/// chi^2 of the difference of two statements about one relative pose.
-double disagreement(const UncertainPose2& first, const UncertainPose2& second) {
-  const Vector3d off(first.T_a_b.x - second.T_a_b.x, first.T_a_b.y - second.T_a_b.y,
-                     wrap_angle(first.T_a_b.yaw - second.T_a_b.yaw));
-  return off.dot((first.covariance + second.covariance).ldlt().solve(off));
 }
 
 BoundOptions passage_about(const Map& map, PatchId id) {
@@ -162,7 +154,8 @@ std::vector<std::size_t> LoopCloser::enter(const Map& map, const InformationGrap
     return h.state == HypothesisState::accepted ? std::vector{entry} : std::vector<std::size_t>{};
   }
   const std::vector<std::size_t> agreeing = true_together_with(entry);
-  return is_enough(agreeing, quorum) ? accept(agreeing) : std::vector<std::size_t>{};
+  if (!is_enough(agreeing, quorum) || leave_what_map_rules_out(map, agreeing)) return {};
+  return accept(agreeing);
 }
 
 bool LoopCloser::follow_operator(const Map& map, std::size_t entry) {

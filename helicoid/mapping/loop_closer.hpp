@@ -32,6 +32,11 @@ struct LoopCloserOptions {
   double most_contradicted = 0.015;
   double most_contradicted_one = 0.05;  ///< of any one of them: it speaks for no other
   double outvotes = 1.5;  ///< they weigh this many times as much as any others that cannot be true together with them
+  /// However many agree, places do not lie where the map rules it out: chi^2 against its exact word (eq. 9), deviations
+  /// times look_alike.drift_inflation, 99.99 % at three degrees of freedom; and by more than this, metres. Aisle after
+  /// aisle of a store looks alike, and places that all lie one aisle off agree with one another.
+  double ruled_out = 21.108;
+  double ruled_out_from = 0.6;
 };
 
 class LoopCloser {
@@ -105,6 +110,8 @@ class LoopCloser {
   [[nodiscard]] std::vector<std::size_t> clear_of(const std::vector<std::size_t>& entries) const;
   [[nodiscard]] bool is_quorate(const std::vector<std::size_t>& entries, const Quorum& quorum) const;
   [[nodiscard]] bool is_enough(const std::vector<std::size_t>& agreeing, const Quorum& quorum) const;
+  /// Those of them that the map rules out are left open. True if there are any.
+  bool leave_what_map_rules_out(const Map& map, const std::vector<std::size_t>& agreeing);
   [[nodiscard]] double way_since_search(const Map& map, PatchId b) const;
   std::vector<std::size_t> accept(const std::vector<std::size_t>& agreeing);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "helicoid/manifold/confidence.hpp"
 #include "tests/synthetic_room.hpp"
 
@@ -47,6 +49,39 @@ TEST(LoopCloser, WhatAgreesOnlyAlongAnOpenDirectionIsNotAcceptedAlong) {
   ASSERT_EQ(ways.closer.ledger().back().supports.size(), 4U);
   EXPECT_EQ(accepted, std::vector<std::size_t>{4});
   EXPECT_TRUE(ways.closer.ledger().front().is_undecided());
+}
+
+/// Once along a hall and back again without a break, so well known that places a few metres aside are ruled out.
+struct ThereAndBack {
+  TwoWays ways;
+
+  explicit ThereAndBack(double sigma_turning) {
+    const double information = 1 / (sigma_turning * sigma_turning);
+    ways.builder.relate(PatchId{kLength - 1}, PatchId{kLength}, RelationKind::chain,
+                        Vector3d(information, information, 1e6));
+  }
+  /// Places that agree with one another, and of which each lies so much farther along than where the map has it.
+  std::size_t accepted(double aside) {
+    for (const std::uint32_t i : {10U, 14U, 18U, 22U}) {
+      Hypothesis h;
+      h.a = PatchId{i};
+      h.b = PatchId{kLength + i};
+      h.T_a_b.T_a_b = {aside, 0, 0};
+      h.T_a_b.covariance.diagonal() << 1e-3, 1e-3, 1e-4;
+      h.score = 0.9;
+      ways.closer.consider_within(ways.builder.map, information_graph(ways.builder.map), h);
+    }
+    return count_closures(ways.closer.ledger());
+  }
+};
+
+TEST(LoopCloser, HoweverManyAgreeTheyAreLeftOpenWhereTheMapRulesThemOut) {
+  ThereAndBack known(0.2);
+  EXPECT_EQ(known.accepted(8), 0U);
+  const Ledger& ledger = known.ways.closer.ledger();
+  EXPECT_TRUE(std::any_of(ledger.begin(), ledger.end(), is_left_open));
+  EXPECT_GT(ThereAndBack(0.2).accepted(0.5), 0U) << "that is no other place";
+  EXPECT_GT(ThereAndBack(3).accepted(8), 0U) << "the map does not know it that well";
 }
 
 }  // namespace

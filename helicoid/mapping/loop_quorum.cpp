@@ -1,9 +1,13 @@
 // When agreeing entries of the ledger are enough to be acted on.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
 
+#include "helicoid/manifold/stated_confidence.hpp"
 #include "helicoid/mapping/loop_closer.hpp"
 
 namespace helicoid {
@@ -64,6 +68,30 @@ bool LoopCloser::is_enough(const std::vector<std::size_t>& agreeing, const Quoru
     against = std::max(against, rival);
   }
   return contradicted <= options_.most_contradicted && together > options_.outvotes * against;
+}
+
+bool LoopCloser::leave_what_map_rules_out(const Map& map, const std::vector<std::size_t>& agreeing) {
+  const double inflation = options_.look_alike.drift_inflation;
+  std::optional<StatedConfidence> exact;
+  bool any = false;
+  for (const std::size_t i : agreeing) {
+    Hypothesis& h = ledger_[i];
+    if (h.state != HypothesisState::open || map.island_of(h.a) != map.island_of(h.b)) continue;
+    const Pose2 T_a_b = map.T_plane_patch(h.a).inverse() * map.T_plane_patch(h.b);
+    const double apart = (T_a_b.translation() - h.T_a_b.T_a_b.translation()).norm();
+    if (apart < options_.ruled_out_from) continue;
+    if (!exact) exact.emplace(map, map.island_with(h.a));
+    if (!exact->is_determined()) return false;
+    UncertainPose2 said = exact->between(h.a, h.b);
+    said.covariance *= inflation * inflation;
+    if (disagreement(said, h.T_a_b) < options_.ruled_out) continue;
+    h.decided_by = DecidedBy::evidence;
+    h.reason =
+        fmt::format("agrees with others, but lies {:.1f} m from where the map has it, which knows it to {:.1f} m",
+                    apart, confidence_interval(said.covariance).position);
+    any = true;
+  }
+  return any;
 }
 
 std::vector<std::size_t> LoopCloser::clear_of(const std::vector<std::size_t>& entries) const {
