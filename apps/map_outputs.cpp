@@ -95,8 +95,7 @@ SketchDrawing sketch_of(const Map& map, const MapReport& report, const IslandRep
   SketchDrawing drawing;
   drawing.layers.push_back({"free space", make_sketch(stacked.grid)});
   drawing.ways = ways_over(map, island.island.patches);
-  const Neighbours driven = DrivenNeighbours().add_to(map, report.neighbours);
-  drawing.topology = make_topology(map, island.island.patches, driven, island.sheets);
+  drawing.topology = make_topology(map, island.island.patches, report.driven_neighbours, island.sheets);
   return drawing;
 }
 
@@ -125,7 +124,8 @@ SketchDrawing draw_sketch(const Map& map, const MapReport& report, const IslandR
 }
 
 MapReport report_on(const Map& map, bool drawn) {
-  MapReport report{find_neighbours(map), {}};
+  MapReport report{find_neighbours(map), {}, {}};
+  if (drawn) report.driven_neighbours = DrivenNeighbours().add_to(map, report.neighbours);
   for (Island& island : map.islands()) {
     IslandReport entry{std::move(island), {}, {}, 0};
     entry.sheets = drawn ? find_sheets(map, report.neighbours, entry.island)

@@ -23,6 +23,7 @@ struct IslandReport {
 /// which patch is on which sheet too.
 struct MapReport {
   Neighbours neighbours;
+  Neighbours driven_neighbours;  ///< and what robots drove between; empty unless `drawn`
   std::vector<IslandReport> islands;
 };
 [[nodiscard]] MapReport report_on(const Map& map, bool drawn);

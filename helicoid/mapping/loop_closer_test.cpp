@@ -28,11 +28,12 @@ struct TwoWays {
     }
   }
   /// The second way's patch k was perhaps taken where the first way's patch i lies, give or take so much along the
-  /// hall.
-  std::vector<std::size_t> consider(std::uint32_t i, std::uint32_t k, double sigma_along) {
+  /// hall, and so much farther along.
+  std::vector<std::size_t> consider(std::uint32_t i, std::uint32_t k, double sigma_along, double farther = 0) {
     Hypothesis h;
     h.a = PatchId{i};
     h.b = PatchId{kLength + k};
+    h.T_a_b.T_a_b = {farther, 0, 0};
     h.T_a_b.covariance.diagonal() << sigma_along * sigma_along, 1e-3, 1e-4;
     h.score = 0.9;
     return closer.consider_within(builder.map, information_graph(builder.map), h);
@@ -62,15 +63,7 @@ struct ThereAndBack {
   }
   /// Places that agree with one another, and of which each lies so much farther along than where the map has it.
   std::size_t accepted(double aside) {
-    for (const std::uint32_t i : {10U, 14U, 18U, 22U}) {
-      Hypothesis h;
-      h.a = PatchId{i};
-      h.b = PatchId{kLength + i};
-      h.T_a_b.T_a_b = {aside, 0, 0};
-      h.T_a_b.covariance.diagonal() << 1e-3, 1e-3, 1e-4;
-      h.score = 0.9;
-      ways.closer.consider_within(ways.builder.map, information_graph(ways.builder.map), h);
-    }
+    for (const std::uint32_t i : {10U, 14U, 18U, 22U}) ways.consider(i, i, 0.03, aside);
     return count_closures(ways.closer.ledger());
   }
 };
